@@ -4,7 +4,7 @@
 //! carries out the commands of the last frame. `ui` shows the views, and makes an undo step of a changed draft.
 
 use super::apply::apply_all;
-use super::command::{Action, Command, Commands};
+use super::command::{Action, Command, Commands, RecoverAnswer};
 use super::files::crash::{self, Doing};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
 use super::files::library::Library;
@@ -189,7 +189,7 @@ impl EditorApp {
 
     /// Takes over the unsaved work that an editor left when it lost its graphics device.
     pub fn continue_after_loss(mut self) -> Self {
-        opening::recover(&mut self.state, true);
+        opening::recover(&mut self.state, RecoverAnswer::Recover);
         self.state
             .notices
             .say("The graphics device was lost. The editor began anew; your work is as it was.".to_owned());
@@ -285,6 +285,8 @@ impl EditorApp {
         let problems = [state.document.problems(), state.pictures.problems()].concat();
         let locks = LockView::of(&planet);
         let curves = CurveView::new(self.curve_inputs.found());
+        let (altitude_m, eye) = state.viewport.eye(&planet);
+        panels.sculpt.note_altitude(altitude_m);
         let mut bench = Bench {
             before: state.document.planet(),
             label: None,
@@ -294,7 +296,7 @@ impl EditorApp {
             under_pointer: state.viewport.under_pointer(),
             survey: self.survey.found(),
             commands: &mut self.commands,
-            eye_lon_deg: state.viewport.eye(&planet).1.to_degrees().1,
+            eye_lon_deg: eye.to_degrees().1,
             time_secs: state.viewport.settings.time_secs,
             stray: state.variations.wish.stray,
             in_system: state.viewport.body().is_some(),

@@ -68,7 +68,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Answer(Answer::Replace(answer)) => answers::replace(state, ctx, answer),
         Action::Answer(Answer::Change(answer)) => answers::change(state, ctx, answer),
         Action::Answer(Answer::Path(path)) => answers::path(state, ctx, path),
-        Action::Answer(Answer::Recover(keep)) => opening::recover(state, keep),
+        Action::Answer(Answer::Recover(answer)) => opening::recover(state, answer),
         Action::DismissMessage => {
             if !state.messages.is_empty() {
                 state.messages.remove(0);

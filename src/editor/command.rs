@@ -181,6 +181,8 @@ pub enum PanelAction {
     ClearFilter,
     /// Put every tab back into the side panel.
     ResetLayout,
+    /// Select layers: the first, and their count.
+    SelectLayers(usize, usize),
     /// Open the sculpt tab, and change what it has in hand.
     Sculpt(SculptAction),
 }
@@ -380,8 +382,18 @@ pub enum Answer {
     Change(ChangeAnswer),
     /// The path typed in the window; None cancels.
     Path(Option<PathBuf>),
-    /// Whether to open the work that a crash left behind; false deletes it.
-    Recover(bool),
+    /// What to do with the work that a crash left behind.
+    Recover(RecoverAnswer),
+}
+
+/// An answer to the question about work that a crash left behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum RecoverAnswer {
+    Recover,
+    /// It stays, and is offered at the next start.
+    Later,
+    Delete,
 }
 
 /// An answer to the question about unsaved work.

@@ -292,7 +292,7 @@ fn view_and_help() -> Vec<Row> {
         Row::new(
             Command::ToggleTheme,
             "Light or dark",
-            "Switch between the light and the dark look.",
+            "Settings: switch between the light and the dark theme.",
             window::toggle_theme,
         )
         .within(Menu::View, 2),

@@ -71,6 +71,13 @@ fn the_keys_of_the_desktop_work_over_the_list() {
     harness.event(egui::Event::Paste(text));
     harness.run_steps(3);
     assert_eq!(planet(&harness).layers.len(), before.layers.len());
+    // The pasted layer is the selected one: Delete removes it, and undo brings it back.
+    let pasted = planet(&harness);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Delete);
+    let left: Vec<String> = planet(&harness).layers.iter().map(|layer| layer.name.clone()).collect();
+    assert!(left.len() + 1 == before.layers.len() && !left.contains(&before.layers[1].name), "{left:?}");
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(planet(&harness), pasted);
     // Away from the list the keys are no business of it.
     harness.hover_at(egui::pos2(200.0, 300.0));
     harness.step();

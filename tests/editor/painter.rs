@@ -3,6 +3,7 @@
 use crate::app::{
     Editor, canvas, click, drag_row_below, planet, point_at_planet, send, undo_label, undo_len, until, wait_for_picture,
 };
+use crate::press;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
@@ -106,6 +107,21 @@ fn strokes_lines_rectangles_and_fills_are_one_step_each() {
         undo(&mut harness);
         assert_eq!(biomes(&harness), *expected);
     }
+}
+
+/// The table has the focus after a stroke; keys with Ctrl still belong to the window.
+#[test]
+fn the_keys_of_undo_work_after_a_stroke() {
+    let mut harness = editor(vec![]);
+    let before = biomes(&harness);
+    choose(&mut harness, 3);
+    stroke(&mut harness, &[(1, 1), (2, 1), (5, 1)]);
+    let painted = biomes(&harness);
+    assert_ne!(painted, before);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(biomes(&harness), before);
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    assert_eq!(biomes(&harness), painted);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Sculpting: each tool on the planet, the list of edits, undo and redo.
 
 use super::app::{self, canvas, click, planet, undo_label, undo_len};
-use super::slide;
+use super::{press, slide};
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use tellus::editor::command::Command;
@@ -77,6 +77,21 @@ fn every_tool_makes_an_edit_with_a_drag_and_each_is_one_step_that_is_undone_and_
     stroke(&mut harness, free, free + egui::vec2(30.0, 0.0), egui::Modifiers::ALT);
     assert_eq!(undo_len(&harness), before);
     assert_ne!(harness.state().viewport().eye(&planet(&harness)).1, eye);
+}
+
+/// A new tool fits the view, and Escape puts it down once no window is open.
+#[test]
+fn a_tool_fits_the_view_and_escape_puts_it_down() {
+    let mut harness = open();
+    app::send(&mut harness, Command::TakeTool(5));
+    app::send(&mut harness, Command::History);
+    let brush = |harness: &app::Editor| harness.state().viewport().tab.sculpt.brush.clone();
+    let radius_km = brush(&harness).unwrap().radius_km;
+    assert!((20.0..=80.0).contains(&radius_km), "{radius_km} km on a planet of 1000 km that fills the picture");
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+    assert!(brush(&harness).is_some(), "the window closes first");
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+    assert!(brush(&harness).is_none());
 }
 
 #[test]

@@ -9,6 +9,7 @@ use crate::editor::files::file_names::readable_stem;
 use crate::editor::panels::layers::NEED_STRUCTURE;
 use crate::editor::panels::{PANELS, Panel};
 use crate::editor::state::State;
+use crate::editor::widgets::keys_text;
 use crate::editor::widgets::number::{format_number, suffix};
 use crate::planet::param::{Param, ParamPath, Segment, Value, ValueRef};
 use crate::planet::{Planet, shipped};
@@ -121,7 +122,7 @@ pub fn list(state: &State, ctx: &egui::Context) -> Vec<Entry> {
     entries.extend(state.document.bookmarks().iter().enumerate().map(|(index, bookmark)| {
         let action = Action::Bookmark(BookmarkAction::GoTo(index));
         let shortcut = commands::row(Command::GoTo(index)).and_then(|row| row.shortcuts.first());
-        let hint = shortcut.map_or_else(String::new, |shortcut| ctx.format_shortcut(shortcut));
+        let hint = shortcut.map_or_else(String::new, |shortcut| keys_text(ctx, shortcut));
         Entry { hint, ..Entry::new(&bookmark.name, "Bookmarks", "fly to view", action) }
     }));
     entries.extend(parameters(state.document.planet()));
@@ -133,7 +134,7 @@ fn commands_now(state: &State, ctx: &egui::Context) -> Vec<Entry> {
     let rows = COMMANDS.iter().filter(|row| !matches!(row.command, Command::Finder | Command::GoTo(_)));
     rows.map(|row| {
         let menu = row.menu.map_or("Commands", |(menu, _)| menu.label());
-        let hint = row.shortcuts.first().map_or_else(String::new, |shortcut| ctx.format_shortcut(shortcut));
+        let hint = row.shortcuts.first().map_or_else(String::new, |shortcut| keys_text(ctx, shortcut));
         let entry = Entry::new(&row.label_now(state), menu, row.tooltip, Action::Command(row.command));
         Entry { hint, enabled: row.is_enabled(state), ..entry }
     })

@@ -54,7 +54,7 @@ pub fn unsaved(state: &mut State, ctx: &egui::Context, answer: UnsavedAnswer) {
         }
         (UnsavedAnswer::Discard, Work::Planet) => opening::pursue_past_planet(state, ctx, goal),
         (UnsavedAnswer::Discard, Work::System) => opening::reach(state, ctx, goal),
-        (UnsavedAnswer::Cancel, _) => {}
+        (UnsavedAnswer::Cancel, _) => opening::give_up(state, &goal),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Parts and layers through the clipboard, as the text of a preset.
 
-use crate::editor::command::{ClipAction, Wanted};
+use crate::editor::command::{ClipAction, PanelAction, Wanted};
 use crate::editor::panels::layer_edit;
 use crate::editor::state::State;
 use crate::planet::{Layer, Planet, snippet};
@@ -85,9 +85,11 @@ fn paste(state: &mut State, wanted: Wanted, text: &str) {
             if layers.is_empty() {
                 return refused(state, "The clipboard holds no layer: copy one first.".to_owned());
             }
-            if layer_edit::paste(&mut planet, layers, after).is_none() {
+            let Some(first) = layer_edit::paste(&mut planet, layers, after) else {
                 return refused(state, "The planet has as many layers as it may have.".to_owned());
-            }
+            };
+            state.ask_panel(PanelAction::SelectLayers(first, layers.len()));
+            state.notices.say(layer_edit::counted("Pasted", layers.len()));
             layer_edit::counted("Paste", layers.len())
         }
     };

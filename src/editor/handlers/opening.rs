@@ -1,5 +1,6 @@
 //! Opening: another document in the place of this one, after a question where unsaved work would be lost.
 
+use crate::editor::command::RecoverAnswer;
 use crate::editor::files::dialogs::DialogRequest;
 use crate::editor::files::file_names::{PRESET_EXTENSION, has_extension, readable_stem, with_extension};
 use crate::editor::handlers::system;
@@ -60,7 +61,8 @@ fn read(path: &Path) -> Result<Document, LoadError> {
 /// Pursues a goal: asks first if unsaved work would be lost.
 pub fn pursue(state: &mut State, ctx: &egui::Context, goal: Goal) {
     state.questions.after_save = None;
-    let stays = matches!(goal, Goal::BeginSystem | Goal::LeaveSystem | Goal::OpenSystem(_));
+    // A file is asked for first.
+    let stays = matches!(goal, Goal::Open | Goal::BeginSystem | Goal::LeaveSystem | Goal::OpenSystem(_));
     if state.loses_work() && !stays {
         state.questions.unsaved = Some((Work::Planet, goal));
     } else {
@@ -79,6 +81,13 @@ pub fn pursue_past_planet(state: &mut State, ctx: &egui::Context, goal: Goal) {
         state.questions.unsaved = Some((Work::System, goal));
     } else {
         reach(state, ctx, goal);
+    }
+}
+
+/// A goal that was given up: a system of which no planet is open is closed again.
+pub fn give_up(state: &mut State, goal: &Goal) {
+    if matches!(goal, Goal::Visit(..)) && state.viewport.body().is_none() {
+        system::leave(state);
     }
 }
 
@@ -161,12 +170,16 @@ pub fn roll(state: &mut State, kind: Option<Kind>) {
     state.roll(planet, &label);
 }
 
-/// Opens the first working copy that a crash left behind, or deletes it.
-pub fn recover(state: &mut State, keep: bool) {
+/// Opens the first working copy that a crash left behind, leaves it for the next start, or deletes it.
+pub fn recover(state: &mut State, answer: RecoverAnswer) {
     if state.orphans.is_empty() {
         return;
     }
     let orphan = state.orphans.remove(0);
+    if answer == RecoverAnswer::Later {
+        return;
+    }
+    let keep = answer == RecoverAnswer::Recover;
     match &state.recovery {
         // Kept until this editor's own working copy takes its place: a second crash loses nothing.
         Some(recovery) if keep => recovery.adopt(&orphan.file),

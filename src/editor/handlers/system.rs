@@ -6,7 +6,7 @@ use crate::editor::files::file_names::{PRESET_EXTENSION, file_name_of, with_exte
 use crate::editor::handlers::opening;
 use crate::editor::state::State;
 use crate::editor::state::questions::{Asking, Goal, Replace};
-use crate::editor::state::system::presets::name_of_shipped;
+use crate::editor::state::system::presets::{name_of_shipped, of_document};
 use crate::editor::state::system::trial::TrialRun;
 use crate::editor::state::system::{News, OpenSystem, Origin, Preset};
 use crate::editor::viewport::travel::Arrival;
@@ -31,7 +31,7 @@ pub fn act(state: &mut State, ctx: &egui::Context, action: SystemAction) {
         SystemAction::Edit(system, label) => state.change_system(|open| open.edit(*system, &label)),
         SystemAction::Add(parent, NewBody::Star) => state.change_system(|open| open.add_star(parent)),
         SystemAction::Add(parent, NewBody::Shipped(index)) => add_shipped(state, parent, index),
-        SystemAction::Add(parent, NewBody::Open) => match open_preset(state) {
+        SystemAction::Add(parent, NewBody::Open) => match of_document(&state.document) {
             Ok((preset, planet)) => state.change_system(|open| open.add_planet(parent, preset, planet)),
             Err(why) => state.notices.say(why),
         },
@@ -93,7 +93,7 @@ fn open(state: &mut State, ctx: &egui::Context, opened: Result<OpenSystem, Strin
 
 /// Begins a system around the open planet, which stays open.
 pub fn begin(state: &mut State) {
-    match open_preset(state) {
+    match of_document(&state.document) {
         Ok((preset, planet)) => {
             let system = OpenSystem::around(preset, planet);
             state.shows.system = true;
@@ -159,19 +159,6 @@ fn arrive(state: &mut State, body: usize) {
         state.viewport.set_system(Some((worlds, body)));
         state.reset_view();
     }
-}
-
-/// The file of the open planet, or the shipped preset that it is, as a system names it.
-fn open_preset(state: &State) -> Result<(String, Arc<Planet>), String> {
-    let planet = state.document.valid_planet();
-    if let Some(path) = state.document.path() {
-        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        return Ok((path.display().to_string(), Arc::clone(planet)));
-    }
-    let is_this = |preset: &shipped::Shipped| preset.load().is_ok_and(|shipped| shipped == **planet);
-    let shipped = shipped::ALL.iter().position(is_this).and_then(name_of_shipped);
-    let named = shipped.ok_or("Save the planet first: a system refers to the files of its planets.")?;
-    Ok((named, Arc::clone(planet)))
 }
 
 fn add_shipped(state: &mut State, parent: usize, index: usize) {

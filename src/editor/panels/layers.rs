@@ -54,7 +54,8 @@ impl LayersState {
         self.also.clear();
     }
 
-    fn select_all(&mut self, indices: &[usize]) {
+    /// Selects layers.
+    pub fn select_all(&mut self, indices: &[usize]) {
         self.also = indices.iter().copied().collect();
         self.selected = indices.first().copied().unwrap_or_default();
         self.also.remove(&self.selected);
@@ -104,6 +105,9 @@ pub fn show(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
         } else {
             list(ui, state, draft);
         }
+        if draft.planet.structure.is_some() {
+            ui.weak("Continents, ranges and valleys come from the tab Structure; layers add to them.");
+        }
         ui.separator();
     }
     rest(ui, draft, "layer", |ui, draft| {
@@ -141,11 +145,9 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
             }
         });
         ui.add_enabled_ui(count > 0, |ui| {
-            let told = "Remove the selected layers, and the masks on them";
+            let told = "Remove the selected layers, and the masks on them (Delete over the list)";
             if icon_button(ui, Icon::Remove, "Remove layer", told).clicked() {
-                layer_edit::remove_all(draft.planet, &chosen);
-                state.select(first);
-                draft.name_edit(layer_edit::counted("Remove", chosen.len()));
+                remove_chosen(state, draft);
             }
         });
         for (icon, name, by, possible) in
@@ -238,7 +240,7 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
         }
         draft.name_edit(layer_edit::counted(if enabled { "Turn on" } else { "Turn off" }, chosen.len()));
     }
-    clipboard_keys(ui, top, state, draft);
+    list_keys(ui, top, state, draft);
     if let Some((from, gap)) = moved {
         let to = layer_edit::move_to_gap(draft.planet, from, gap);
         state.select(to);
@@ -248,8 +250,8 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     }
 }
 
-/// The clipboard keys of the desktop, for the selected layers while the pointer is over the list.
-fn clipboard_keys(ui: &egui::Ui, top: f32, state: &LayersState, draft: &mut Draft<'_>) {
+/// The clipboard keys of the desktop and Delete, for the selected layers while the pointer is over the list.
+fn list_keys(ui: &egui::Ui, top: f32, state: &mut LayersState, draft: &mut Draft<'_>) {
     let list = egui::Rect::from_min_max(egui::pos2(ui.min_rect().left(), top), ui.min_rect().max);
     if ui.ctx().text_edit_focused() || !ui.rect_contains_pointer(list) {
         return;
@@ -264,6 +266,19 @@ fn clipboard_keys(ui: &egui::Ui, top: f32, state: &LayersState, draft: &mut Draf
         })
     });
     draft.commands.extend(action.map(Action::Clip));
+    if !draft.planet.layers.is_empty()
+        && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Delete))
+    {
+        remove_chosen(state, draft);
+    }
+}
+
+/// Removes the selected layers.
+fn remove_chosen(state: &mut LayersState, draft: &mut Draft<'_>) {
+    let chosen = state.chosen();
+    layer_edit::remove_all(draft.planet, &chosen);
+    state.select(chosen[0]);
+    draft.name_edit(layer_edit::counted("Remove", chosen.len()));
 }
 
 /// Blend mode and landform of a layer; while the pointer is over the ground, the layer's change of the height there.

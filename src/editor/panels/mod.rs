@@ -282,6 +282,7 @@ impl PanelState {
             PanelAction::TypeFilter => self.finding.take_focus(),
             PanelAction::ClearFilter => self.finding.clear(self.layout.active()),
             PanelAction::ResetLayout => self.layout = Layout::default(),
+            PanelAction::SelectLayers(first, count) => self.layers.select_all(&Vec::from_iter(first..first + count)),
             PanelAction::Sculpt(action) => {
                 if let Some(tab) = PANELS.iter().position(|panel| panel.sculpts) {
                     self.layout.open(tab);

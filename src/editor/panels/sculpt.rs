@@ -22,9 +22,12 @@ const LIST_SHARE: f32 = 0.3;
 const ROW: f32 = 20.0;
 /// The change of the radius by one key.
 const STEP: f64 = 1.25;
-/// Share of the planet's radius that a brush has at first, and the most it has, in kilometres.
-const FIRST_SHARE: f64 = 0.01;
-const FIRST_KM: f64 = 50.0;
+/// Radius that a brush has at first: a share of the altitude of the eye, so that its mark is seen, and at most a share
+/// of the planet's radius.
+const FIRST_OF_ALTITUDE: f64 = 0.03;
+const FIRST_OF_RADIUS: f64 = 0.04;
+/// Least radius at first, kilometres.
+const LEAST_FIRST_KM: f64 = 0.005;
 /// What the measure tool does.
 const MEASURES: &str = "Drag to measure a way and its profile; click point after point for longer ways and areas, Enter \
                         ends one, Escape forgets it.";
@@ -50,6 +53,8 @@ pub struct SculptState {
     measures: bool,
     /// Index of the edit whose parameters are shown.
     pub selected: Option<usize>,
+    /// Altitude of the eye; 0 before the first picture.
+    altitude_m: f64,
     /// Words that edits in the list must have.
     find: String,
     scroll_to: Option<usize>,
@@ -61,6 +66,11 @@ impl SculptState {
         let brush = self.brushes.iter().find(|(tool, _)| *tool == self.tool).map(|(_, brush)| brush);
         let brush = brush.filter(|_| self.in_hand).cloned().map(Arc::new);
         SculptLink { brush, selected: self.selected, measures: self.measures }
+    }
+
+    /// Notes how high the eye is: a new brush fits the view.
+    pub fn note_altitude(&mut self, altitude_m: f64) {
+        self.altitude_m = altitude_m;
     }
 
     /// Selects an edit.
@@ -83,7 +93,9 @@ impl SculptState {
     /// The brush of the tool; a new one fits the planet.
     fn brush(&mut self, planet: &Planet) -> &mut GroundEdit {
         let at = self.brushes.iter().position(|(tool, _)| *tool == self.tool).unwrap_or_else(|| {
-            let radius_km = tidy_km((planet.radius_km * FIRST_SHARE).min(FIRST_KM));
+            let most_km = FIRST_OF_RADIUS * planet.radius_km;
+            let seen_km = if self.altitude_m > 0.0 { FIRST_OF_ALTITUDE * 1e-3 * self.altitude_m } else { most_km };
+            let radius_km = tidy_km(seen_km.max(LEAST_FIRST_KM).min(most_km));
             let tool = Tool::of_kind(self.tool).unwrap_or_default();
             self.brushes.push((self.tool, GroundEdit { tool, radius_km, ..GroundEdit::default() }));
             self.brushes.len() - 1

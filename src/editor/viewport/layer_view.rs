@@ -85,8 +85,8 @@ pub struct LayerView {
 }
 
 impl LayerView {
-    /// The planet as it is seen: with the layers `solo` alone and without its structure, unless there are none; and
-    /// without clouds over those or over an overlay.
+    /// The planet as it is seen: with the layers `solo` alone, without its structure and sea, unless there are none;
+    /// and without clouds over those or over an overlay.
     pub(super) fn seen(&mut self, planet: &Arc<Planet>, solo: &[usize], has_overlay: bool) -> Arc<Planet> {
         if solo.is_empty() && !has_overlay {
             self.seen = None;
@@ -101,7 +101,7 @@ impl LayerView {
         let mut bare = Planet::clone(planet);
         bare.clouds = None;
         if !solo.is_empty() {
-            bare.structure = None;
+            (bare.structure, bare.water) = (None, None);
             for (index, layer) in bare.layers.iter_mut().enumerate() {
                 layer.enabled = solo.contains(&index);
             }

@@ -214,6 +214,11 @@ impl Viewport {
         self.picture.surface().cloned()
     }
 
+    /// Whether the hand of the sculptor is at work.
+    pub fn is_drawing(&self) -> bool {
+        self.hand.is_drawing()
+    }
+
     /// Whether a finer surface is being built or uploaded.
     pub fn is_busy(&self) -> bool {
         self.builder.is_busy() || self.picture.is_behind(self.builder.surface().as_ref())

@@ -99,6 +99,11 @@ impl Hand {
         self.touched.take()
     }
 
+    /// Whether a gesture or a line of clicks is under way.
+    pub(super) fn is_drawing(&self) -> bool {
+        self.line.is_some() || !matches!(self.gesture, Gesture::None)
+    }
+
     /// Takes drags and clicks of this frame.
     pub(super) fn handle(
         &mut self,

@@ -3,6 +3,7 @@
 use crate::editor::command::{Action, Commands, Window};
 use crate::editor::commands::COMMANDS;
 use crate::editor::state::State;
+use crate::editor::widgets::keys_text;
 use eframe::egui;
 
 /// Held keys and the mouse, which are no commands.
@@ -86,7 +87,7 @@ pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
                 }
                 heading(ui, "Shortcuts");
                 for command in COMMANDS.iter().filter(|command| !command.shortcuts.is_empty()) {
-                    let keys = command.shortcuts.iter().map(|shortcut| ctx.format_shortcut(shortcut));
+                    let keys = command.shortcuts.iter().map(|shortcut| keys_text(ctx, shortcut));
                     row(ui, &keys.collect::<Vec<_>>().join(", "), command.tooltip);
                 }
             });

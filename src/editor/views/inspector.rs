@@ -5,8 +5,8 @@ use crate::editor::command::{Action, Command, Commands, Window};
 use crate::editor::commands;
 use crate::editor::state::State;
 use crate::editor::viewport::pointer::KnownPlace;
-use crate::editor::widgets::color32;
 use crate::editor::widgets::number::{format_digits, length_text};
+use crate::editor::widgets::{color32, keys_text};
 use crate::planet::Planet;
 use crate::sphere::geo::east_north;
 use eframe::egui::{self, Rect, Sense, pos2, vec2};
@@ -35,7 +35,7 @@ pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
         let inspector = &state.viewport.inspector;
         let keys = |command| {
             let shortcut = commands::row(command).and_then(|row| row.shortcuts.first());
-            shortcut.map(|shortcut| ctx.format_shortcut(shortcut)).unwrap_or_default()
+            shortcut.map(|shortcut| keys_text(ctx, shortcut)).unwrap_or_default()
         };
         let hold_keys = keys(Command::HoldPlace);
         let Some(place) = inspector.place() else {

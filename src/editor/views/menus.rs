@@ -5,8 +5,8 @@ use crate::editor::commands::{self, Menu, Row};
 use crate::editor::files::file_names::readable_stem;
 use crate::editor::state::State;
 use crate::editor::widgets::icon::{Icon, icon_button};
-use crate::editor::widgets::menu_button;
 use crate::editor::widgets::typed::{Allowed, plain_field};
+use crate::editor::widgets::{keys_text, menu_button};
 use crate::lod::Quality;
 use crate::planet::param::Unit;
 use crate::planet::shipped;
@@ -29,13 +29,15 @@ pub fn show(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
                         ui.separator();
                     }
                     group.iter().for_each(|row| entry(ui, state, commands, row));
+                    if i == 0 && menu == Menu::File {
+                        recent(ui, state, commands);
+                    }
                 }
                 match menu {
                     Menu::View => settings(ui, state, commands),
                     Menu::Bookmarks => bookmarks(ui, state, commands),
                     Menu::Planets => planets(ui, commands),
-                    Menu::File => recent(ui, state, commands),
-                    Menu::Edit | Menu::Camera | Menu::Sculpt | Menu::Help => {}
+                    Menu::File | Menu::Edit | Menu::Camera | Menu::Sculpt | Menu::Help => {}
                 }
             });
         }
@@ -55,7 +57,7 @@ fn entry(ui: &mut egui::Ui, state: &State, commands: &mut Commands, row: &Row) {
         None => egui::Button::new(label),
     };
     if let Some(shortcut) = row.shortcuts.first() {
-        button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+        button = button.shortcut_text(keys_text(ui.ctx(), shortcut));
     }
     if ui.add_enabled(row.is_enabled(state), button).on_hover_text(row.tooltip).clicked() {
         commands.send(row.command);
@@ -80,7 +82,6 @@ fn recent(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
     if others.is_empty() {
         return;
     }
-    ui.separator();
     ui.menu_button("Open recent", |ui| {
         for path in others {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -118,7 +119,7 @@ fn bookmarks(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
             }
         });
         if let Some(shortcut) = commands::row(Command::GoTo(index)).and_then(|row| row.shortcuts.first()) {
-            submenu.response.on_hover_text(ui.ctx().format_shortcut(shortcut));
+            submenu.response.on_hover_text(keys_text(ui.ctx(), shortcut));
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::editor::commands;
 use crate::editor::state::State;
 use crate::editor::viewport::camera::Mode;
 use crate::editor::widgets::number::length_text;
-use crate::editor::widgets::{color32, menu_button};
+use crate::editor::widgets::{color32, keys_text, menu_button};
 use crate::render::{DebugView, Legend};
 use crate::sphere::geo::east_north;
 use eframe::egui::{self, Align2, Color32, Pos2, Rect, Stroke, pos2, vec2};
@@ -60,7 +60,7 @@ fn chips(ui: &mut egui::Ui, rect: Rect, state: &State, commands: &mut Commands) 
         let response = menu_button(ui, now, |ui| {
             for row in choices.iter().filter_map(|command| commands::row(*command)) {
                 let button = egui::Button::selectable(row.is_chosen(state) == Some(true), row.label);
-                let keys = row.shortcuts.first().map(|keys| ui.ctx().format_shortcut(keys)).unwrap_or_default();
+                let keys = row.shortcuts.first().map(|keys| keys_text(ui.ctx(), keys)).unwrap_or_default();
                 if ui.add(button.shortcut_text(keys)).on_hover_text(row.tooltip).clicked() {
                     commands.send(row.command);
                     ui.close();

@@ -3,9 +3,9 @@
 use super::differences;
 use super::path_field::PathField;
 use super::rename::RenameField;
-use crate::editor::command::{Action, Answer, ChangeAnswer, Commands, ReplaceAnswer, UnsavedAnswer};
+use crate::editor::command::{Action, Answer, ChangeAnswer, Commands, RecoverAnswer, ReplaceAnswer, UnsavedAnswer};
 use crate::editor::state::document::Document;
-use crate::editor::state::questions::{Change, Work};
+use crate::editor::state::questions::{Change, Goal, Work};
 use crate::editor::state::recovery::Orphan;
 use crate::editor::state::{Message, State};
 use eframe::egui;
@@ -24,9 +24,9 @@ impl Prompts {
         commands.extend(self.question(ctx, state).map(Action::Answer));
         if let Some(orphan) = state.orphans.first()
             && !state.document.is_dirty()
-            && let Some(keep) = recover(ctx, &named(orphan))
+            && let Some(answer) = recover(ctx, &named(orphan))
         {
-            commands.push(Action::Answer(Answer::Recover(keep)));
+            commands.push(Action::Answer(Answer::Recover(answer)));
         }
         if let Some(message) = state.messages.first()
             && dismissed(ctx, message)
@@ -40,10 +40,10 @@ impl Prompts {
     fn question(&mut self, ctx: &egui::Context, state: &State) -> Option<Answer> {
         let questions = &state.questions;
         self.path = self.path.take().filter(|field| questions.path.as_ref().is_some_and(|wanted| field.is_for(wanted)));
-        if let Some((work, _)) = &questions.unsaved {
+        if let Some((work, goal)) = &questions.unsaved {
             match work {
-                Work::Planet => unsaved(ctx, state),
-                Work::System => unsaved_system(ctx, state),
+                Work::Planet => unsaved(ctx, state, goal),
+                Work::System => unsaved_system(ctx, state, goal),
             }
             .map(Answer::Unsaved)
         } else if let Some(replace) = &questions.replace {
@@ -105,7 +105,7 @@ fn question_about<A: Copy>(
     if modal.inner.is_none() && modal.should_close() { Some(cancel) } else { modal.inner }
 }
 
-fn unsaved(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
+fn unsaved(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<UnsavedAnswer> {
     let dirty = state.document.is_dirty();
     let title = state.document.title();
     let here = dirty.then(|| format!("{} has unsaved changes.", title.trim_start_matches("• ")));
@@ -114,7 +114,7 @@ fn unsaved(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
         .rolled_over()
         .into_iter()
         .map(|name| format!("{name} had unsaved changes before the random planet; undo brings them back."));
-    let lines: Vec<String> = here.into_iter().chain(before).collect();
+    let lines: Vec<String> = here.into_iter().chain(before).chain([follows(goal)]).collect();
     let save = ("Save changes", UnsavedAnswer::Save);
     let rest = [("Discard changes", UnsavedAnswer::Discard), ("Cancel", UnsavedAnswer::Cancel)];
     let answers: Vec<_> = dirty.then_some(save).into_iter().chain(rest).collect();
@@ -122,15 +122,30 @@ fn unsaved(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
     question(ctx, "unsaved work", (heading, &lines), &answers, UnsavedAnswer::Cancel)
 }
 
-fn unsaved_system(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
+fn unsaved_system(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<UnsavedAnswer> {
     let name = state.system.as_ref().map_or("", |system| &system.system().name);
-    let lines = [format!("The system {name} has unsaved changes.")];
+    let lines = [format!("The system {name} has unsaved changes."), follows(goal)];
     let answers = [
         ("Save changes", UnsavedAnswer::Save),
         ("Discard changes", UnsavedAnswer::Discard),
         ("Cancel", UnsavedAnswer::Cancel),
     ];
     question(ctx, "unsaved system", ("Save your changes?", &lines), &answers, UnsavedAnswer::Cancel)
+}
+
+/// What follows the answer.
+fn follows(goal: &Goal) -> String {
+    match goal {
+        Goal::Begin(_) => "Then a new planet begins.".to_owned(),
+        Goal::Open => "Then a file is chosen.".to_owned(),
+        Goal::OpenPath(path) => format!("Then {} opens.", path.file_name().unwrap_or_default().display()),
+        Goal::OpenShipped(_) => "Then a planet of the library opens.".to_owned(),
+        Goal::Visit(..) => "Then the planet of another body opens.".to_owned(),
+        Goal::OpenSystem(_) => "Then another system opens.".to_owned(),
+        Goal::BeginSystem => "Then a new system begins.".to_owned(),
+        Goal::LeaveSystem => "Then the system closes.".to_owned(),
+        Goal::Quit => "Then the editor ends.".to_owned(),
+    }
 }
 
 fn replaced(ctx: &egui::Context, path: &Path) -> Option<ReplaceAnswer> {
@@ -189,7 +204,7 @@ fn named(orphan: &Orphan) -> String {
     names.join(" and ")
 }
 
-fn recover(ctx: &egui::Context, name: &str) -> Option<bool> {
+fn recover(ctx: &egui::Context, name: &str) -> Option<RecoverAnswer> {
     // Only an answer closes the question: a click beside it must not delete work.
     let modal = egui::Modal::new(egui::Id::unique("recover work")).show(ctx, |ui| {
         ui.set_width(360.0);
@@ -198,10 +213,13 @@ fn recover(ctx: &egui::Context, name: &str) -> Option<bool> {
         ui.label(format!("The editor stopped without saving {name}."));
         ui.add_space(12.0);
         ui.horizontal(|ui| {
+            let later = "It is offered again at the next start";
             if ui.button("Recover").clicked() {
-                Some(true)
+                Some(RecoverAnswer::Recover)
+            } else if ui.button("Not now").on_hover_text(later).clicked() {
+                Some(RecoverAnswer::Later)
             } else if ui.button("Delete").clicked() {
-                Some(false)
+                Some(RecoverAnswer::Delete)
             } else {
                 None
             }

@@ -3,7 +3,7 @@
 use super::{
     bake, controls, history, inspector, library, performance, photo, place, system, templates, text, tour, variations,
 };
-use crate::editor::command::{Action, Command, Commands, PanelAction, Window};
+use crate::editor::command::{Action, Command, Commands, PanelAction, SculptAction, Window};
 use crate::editor::commands;
 use crate::editor::panels::biomes;
 use crate::editor::state::State;
@@ -35,18 +35,23 @@ pub fn take(ctx: &egui::Context, state: &State, keys: Keys, commands: &mut Comma
 }
 
 fn take_shortcuts(ctx: &egui::Context, state: &State, commands: &mut Commands) {
+    let typing = ctx.text_edit_focused();
     // Letters and digits choose biomes while the table has the focus.
-    let typing = ctx.text_edit_focused() || biomes::has_keys(ctx);
+    let chooses = biomes::has_keys(ctx);
+    let belongs_to_other = |keys: &egui::KeyboardShortcut| typing || chooses && !keys.modifiers.command;
     // While the finder is open, its own shortcut closes it, and all other keys are its text.
     let taken = |command| !state.shows.finder || command == Command::Finder;
     for (shortcut, row) in commands::all_shortcuts().into_iter().filter(|(_, row)| taken(row.command)) {
-        if !(typing && row.yields_to_text) && ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
+        if !(row.yields_to_text && belongs_to_other(&shortcut))
+            && ctx.input_mut(|input| input.consume_shortcut(&shortcut))
+        {
             commands.send(row.command);
         }
     }
 }
 
-/// Escape closes the window on top, or else removes the filter of the open tab. The finder and fields take their own.
+/// Escape closes the window on top, or else removes the filter of the open tab, puts the tool down, or ends the
+/// comparison. The finder and fields take their own.
 fn take_escape(ctx: &egui::Context, state: &State, keys: Keys, commands: &mut Commands) {
     if keys.was_typing || state.shows.finder {
         return;
@@ -70,7 +75,12 @@ fn take_escape(ctx: &egui::Context, state: &State, keys: Keys, commands: &mut Co
     let height = |layer: &egui::LayerId| order.iter().position(|other| other == layer);
     let top = windows.into_iter().filter(|(_, open, _)| *open).max_by_key(|(layer, ..)| height(layer));
     let filter = keys.filtered.then_some(Action::Panel(PanelAction::ClearFilter));
-    if let Some(action) = top.map(|(.., window)| Action::Close(window)).or(filter)
+    let sculpt = &state.viewport.tab.sculpt;
+    // What is drawn point by point is forgotten first.
+    let tool = (sculpt.brush.is_some() && !state.viewport.is_drawing())
+        .then_some(Action::Panel(PanelAction::Sculpt(SculptAction::PutDown)));
+    let compare = state.viewport.compare().is_some().then_some(Action::Command(Command::Compare));
+    if let Some(action) = top.map(|(.., window)| Action::Close(window)).or(filter).or(tool).or(compare)
         && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
     {
         commands.push(action);

@@ -1,6 +1,7 @@
 //! The status bar: the ground under the pointer, and figures of the picture.
 
 use crate::editor::state::State;
+use crate::editor::viewport::pointer::KnownPlace;
 use crate::editor::widgets::number::{format_digits, length_text, megabytes};
 use crate::sphere::LatLon;
 use eframe::egui;
@@ -12,15 +13,7 @@ pub fn show(ui: &mut egui::Ui, state: &State) {
         ui.spacing_mut().item_spacing.x = 12.0;
         let (altitude_m, location) = viewport.eye(state.document.valid_planet());
         let left = match viewport.under_pointer() {
-            Some(under) => format!(
-                "{}   {}   {:.0}° steep   {}   {:.1} °C   moisture {:.2}",
-                location_text(under.location),
-                length_text(under.sample.height_m),
-                under.sample.slope_rad.to_degrees(),
-                under.biome,
-                under.sample.temperature_c,
-                under.sample.moisture
-            ),
+            Some(under) => ground_text(under),
             None => format!("Over {}", location_text(location)),
         };
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -34,6 +27,24 @@ pub fn show(ui: &mut egui::Ui, state: &State) {
             });
         });
     });
+}
+
+/// What is known of a place. Of ground under water the biome says nothing.
+fn ground_text(under: &KnownPlace) -> String {
+    let (place, sample) = (location_text(under.location), &under.sample);
+    if let Some(depth_m) =
+        sample.water_level_m.map(|level_m| level_m - sample.height_m).filter(|depth_m| *depth_m > 0.0)
+    {
+        return format!("{place}   {} under water   {:.1} °C", length_text(depth_m), sample.temperature_c);
+    }
+    format!(
+        "{place}   {}   {:.0}° steep   {}   {:.1} °C   moisture {:.2}",
+        length_text(sample.height_m),
+        sample.slope_rad.to_degrees(),
+        under.biome,
+        sample.temperature_c,
+        sample.moisture
+    )
 }
 
 /// Right to left.

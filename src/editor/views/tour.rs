@@ -6,6 +6,8 @@ use eframe::egui::{self, Rect};
 
 /// Width of the card, points.
 const WIDTH: f32 = 380.0;
+/// Height of the text of a step, points.
+const TEXT_HEIGHT: f32 = 54.0;
 
 /// What a step is about: it is framed.
 #[derive(Clone, Copy)]
@@ -112,7 +114,11 @@ impl TourCard {
                 ui.weak(format!("{} of {}", self.step + 1, STEPS.len()));
             });
         });
-        ui.add(egui::Label::new(step.text).wrap());
+        // As high in every step: the buttons stay where they are.
+        ui.allocate_ui(egui::vec2(ui.available_width(), TEXT_HEIGHT), |ui| {
+            ui.set_min_height(TEXT_HEIGHT);
+            ui.add(egui::Label::new(step.text).wrap());
+        });
         ui.horizontal_wrapped(|ui| {
             for (label, command) in step.tries {
                 if ui.button(*label).clicked() {

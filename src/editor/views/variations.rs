@@ -45,7 +45,7 @@ pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
 fn wishes(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
     let mut wish = state.variations.wish;
     ui.horizontal(|ui| {
-        let label = ui.label("Stray");
+        let label = ui.label("Difference");
         let mut percent = (wish.stray * 100.0).round();
         ui.spacing_mut().slider_width = (ui.available_width() - 150.0).clamp(60.0, 140.0);
         let slider = egui::Slider::new(&mut percent, 2.0..=100.0).suffix(" %").integer();

@@ -42,6 +42,21 @@ pub fn random_seed() -> u64 {
     RandomState::new().hash_one(std::time::SystemTime::now().elapsed().ok())
 }
 
+/// The keys of a shortcut, as they stand on the keyboard.
+pub fn keys_text(ctx: &egui::Context, shortcut: &egui::KeyboardShortcut) -> String {
+    let sign = match shortcut.logical_key {
+        egui::Key::Minus => "−",
+        egui::Key::Plus => "+",
+        egui::Key::Equals => "=",
+        egui::Key::OpenBracket => "[",
+        egui::Key::CloseBracket => "]",
+        egui::Key::Comma => ",",
+        egui::Key::Period => ".",
+        _ => return ctx.format_shortcut(shortcut),
+    };
+    ctx.format_shortcut(shortcut).replace(shortcut.logical_key.name(), sign)
+}
+
 /// Whether an open menu, list or question takes the keys.
 pub fn keys_are_taken(ctx: &egui::Context) -> bool {
     egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())

@@ -52,6 +52,10 @@ pub struct BiomeName {
 const IDLE_OPACITY: f32 = 0.5;
 const RESET_WIDTH: f32 = 20.0;
 const NUMBER_WIDTH: f32 = 86.0;
+/// Upper end from which a range with both signs is wide.
+const WIDE: f64 = 10_000.0;
+/// How much slower a fine drag is.
+const FINE: f64 = 0.1;
 /// Significant digits of a number field, and of each of three fields side by side.
 const NUMBER_DIGITS: i32 = 5;
 const TRIPLE_DIGITS: i32 = 4;
@@ -237,6 +241,9 @@ fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
     if let Some(why) = row.idle {
         ui.label(format!("No effect now. {why}."));
     }
+    if matches!(row.param.domain, Domain::Number { .. }) {
+        ui.weak("Shift drags the slider finely.");
+    }
     let range = row.param.range_text();
     if !range.is_empty() {
         ui.weak(format!("Range: {range}"));
@@ -258,10 +265,19 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
     };
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
-            let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS)).logarithmic(logarithmic);
+            // A wide range around zero is logarithmic on both sides: a sea level may be metres or kilometres.
+            let is_wide = min < 0.0 && max >= WIDE;
+            let before = **v;
+            let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS));
             // A logarithmic range that begins at zero needs a least value: a hundred-thousandth of the range is
             // finer than a pixel of the slider.
-            add_slider(ui, &name, slider.smallest_positive(max.abs() * 1e-5));
+            let least = max.abs() * if is_wide { 1e-3 } else { 1e-5 };
+            let slider = slider.logarithmic(logarithmic || is_wide).smallest_positive(least);
+            let response = add_slider(ui, &name, slider);
+            if response.dragged() && ui.input(|input| input.modifiers.shift) {
+                let share = f64::from(response.drag_delta().x / response.rect.width());
+                **v = drag_finely(before, share, [min, max], logarithmic);
+            }
             focus(number_field(ui, &name, row.param, v, min, max, logarithmic));
         }
         (Domain::Count { min, max }, ValueMut::Count(v)) => {
@@ -338,10 +354,17 @@ fn curve_edit<'a>(param: &Param, name: &'a str) -> Option<CurveEdit<'a>> {
     Some(CurveEdit { name, unit: param.unit, most, least_step, inputs: None })
 }
 
+/// A value after a fine drag over a share of the slider: a tenth of what the share is of the size of the number, or of
+/// the range where the number is small.
+fn drag_finely(value: f64, share: f64, [min, max]: [f64; 2], logarithmic: bool) -> f64 {
+    let size = if logarithmic { value.abs().max(1e-7 * max.abs()) } else { value.abs().max(0.01 * (max - min)) };
+    (value + FINE * share * size).clamp(min, max)
+}
+
 /// A slider that leaves room for the number beside it.
-fn add_slider(ui: &mut egui::Ui, name: &str, slider: egui::Slider<'_>) {
+fn add_slider(ui: &mut egui::Ui, name: &str, slider: egui::Slider<'_>) -> egui::Response {
     ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - 8.0).max(32.0);
-    ui.add(slider.show_value(false).clamping(egui::SliderClamping::Edits)).accessible_name(name);
+    ui.add(slider.show_value(false).clamping(egui::SliderClamping::Edits)).accessible_name(name)
 }
 
 fn number_field(

@@ -8,8 +8,8 @@
 //! [`neighbourhood`] are at least 2 - JITTER = 1.605 away along one axis, or 1.5 - JITTER along two, which is
 //! sqrt([`HORIZON`]) = 1.5627. So the two nearest centres are always found, and nothing jumps as the search moves on.
 //!
-//! Of these cells, most cannot matter for any point of a chunk once the eight nearest are known: [`least_distance`] tells,
-//! and they are left out. This changes no bit.
+//! Of these cells, most cannot matter for any point of a chunk once the eight nearest are known: [`least_distance`]
+//! tells, and they are left out. This changes no bit.
 
 mod near;
 

@@ -1,12 +1,15 @@
 //! Where the presets of a system's bodies are, and how a system names them from another folder.
 
 use super::OpenSystem;
+use crate::editor::files::file_names::readable_stem;
+use crate::editor::state::document::Document;
 use crate::planet::file::write_atomically;
 use crate::planet::picture::folder_of;
-use crate::planet::shipped;
+use crate::planet::{Planet, shipped};
 use crate::system::System;
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 /// Where a system comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -143,6 +146,25 @@ fn relative(path: &Path, folder: &Path) -> String {
     let up = std::iter::repeat_n("..".to_owned(), from.len() - shared);
     let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
     up.chain(down).collect::<Vec<_>>().join("/")
+}
+
+/// The file of the open planet, or the shipped preset that it is, as a system names it.
+///
+/// # Errors
+/// The planet has no file.
+pub fn of_document(document: &Document) -> Result<(String, Arc<Planet>), String> {
+    let planet = document.valid_planet();
+    if let Some(path) = document.path() {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        return Ok((path.display().to_string(), Arc::clone(planet)));
+    }
+    // Only one of its name is read.
+    let has_name = |preset: &shipped::Shipped| readable_stem(Path::new(preset.file)) == planet.name;
+    let is_this =
+        |preset: &shipped::Shipped| has_name(preset) && preset.load().is_ok_and(|shipped| shipped == **planet);
+    let shipped = shipped::ALL.iter().position(is_this).and_then(name_of_shipped);
+    let named = shipped.ok_or("Save the planet first: a system refers to the files of its planets.")?;
+    Ok((named, Arc::clone(planet)))
 }
 
 #[cfg(test)]

@@ -219,7 +219,8 @@ impl Cameras {
         self.pose(ground).camera(Camera::DEFAULT_FOV_Y_RAD)
     }
 
-    /// Sets the mode of movement. From high above the ground, walking starts with a flight down.
+    /// Sets the mode of movement. From high above the ground, walking starts with a flight down; from walking, the
+    /// orbit starts with a flight up.
     pub fn set_mode(&mut self, mode: Mode, ground: &dyn Ground) {
         if mode == self.mode() {
             return;
@@ -231,6 +232,10 @@ impl Cameras {
             let attitude = Attitude { pitch_rad: 0.0, roll_rad: 0.0, ..Attitude::of(&pose) };
             let landed = Pose::new(up * (floor_m + walk::EYE_M), &attitude);
             self.fly(pose, landed, Rig::Walk(Walk::from_pose(&landed)), ground);
+        } else if mode == Mode::Orbit && matches!(self.rig, Rig::Walk(_)) && self.flight.is_none() {
+            let orbit = Orbit::new(ground.radius_m(), LatLon::from_direction(up));
+            let over = Rig::Orbit(orbit);
+            self.fly(pose, over.pose(ground), over, ground);
         } else {
             self.take_over(mode, &pose, ground);
         }

@@ -195,6 +195,12 @@ fn one_lands_on_the_ground_and_walks_on_it() {
         assert!((eye_m(&cameras) - walk::EYE_M).abs() < 0.1, "{}", eye_m(&cameras));
     }
     assert!(start.distance(cameras.pose(&Hills).position_planet_m) > 10.0);
+    // And back up, over the same place.
+    let up = cameras.pose(&Hills).up();
+    cameras.set_mode(Mode::Orbit, &Hills);
+    while cameras.advance(1.0 / 60.0, &Controls::default(), &Hills) {}
+    assert!(cameras.mode() == Mode::Orbit && eye_m(&cameras) > RADIUS_M, "{}", eye_m(&cameras));
+    assert!(cameras.pose(&Hills).up().angle_between(up) < 1e-6);
 }
 
 #[test]

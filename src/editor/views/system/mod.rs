@@ -12,6 +12,7 @@ use crate::editor::command::{Action, Commands, Setting, SystemAction, Window};
 use crate::editor::files::file_names::readable_stem;
 use crate::editor::state::State;
 use crate::editor::state::system::OpenSystem;
+use crate::editor::state::system::presets::of_document;
 use crate::editor::viewport::travel::Arrival;
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::menu_button;
@@ -186,7 +187,12 @@ fn choices(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
         let mark = if state.system_is_dirty() { "• " } else { "" };
         menu_button(ui, format!("{mark}{name}"), |ui| {
             let mut entry = |ui: &mut egui::Ui, text: &str, told: &str, action: SystemAction| {
-                if ui.button(text).on_hover_text(told).clicked() {
+                let can_begin = action != SystemAction::Begin || of_document(&state.document).is_ok();
+                let button = ui.add_enabled(can_begin, egui::Button::new(text)).on_hover_text(told);
+                if button
+                    .on_disabled_hover_text("Save the planet first: a system refers to the files of its planets")
+                    .clicked()
+                {
                     commands.push(Action::System(action));
                     ui.close();
                 }
