@@ -1,4 +1,4 @@
-"""Reads the tiles that `tellus tiles` wrote, by the words of the standards alone, and compares them with `tellus sample`.
+"""Reads the tiles of `tellus tiles` by the words of the standards alone, and compares them with `tellus sample`.
 
 Usage: python3 scripts/read_tiles.py FOLDER PRESET COMMAND...
 
@@ -61,7 +61,8 @@ class Glb:
         check("target" not in view or view["target"] != 34962 or stride % 4 == 0, f"a stride of {stride}")
         check(accessor["count"] * stride <= view["byteLength"], "a view is too short")
         start = view["byteOffset"] + accessor.get("byteOffset", 0)
-        rows = [struct.unpack_from(f"<{count}{letter}", self.binary, start + i * stride) for i in range(accessor["count"])]
+        starts = range(start, start + accessor["count"] * stride, stride)
+        rows = [struct.unpack_from(f"<{count}{letter}", self.binary, at) for at in starts]
         for key, pick in [("min", min), ("max", max)]:
             if key in accessor:
                 check([pick(column) for column in zip(*rows)] == accessor[key], f"the {key} of an accessor")
@@ -202,7 +203,8 @@ def main():
         away_m = max(abs(p - c * (radius_m + height_m)) for p, c in zip(position, dir))
         check(away_m <= error_m + NEAR_M, f"{uri}: {away_m} m from the surface, not {error_m}")
         worst_m = max(worst_m, away_m)
-    print(f"{len(tiles)} tiles, {len(wanted)} vertices within {worst_m:.2f} m of samples; half a step is {greatest_m:.2f} m at most")
+    vertices = f"{len(wanted)} vertices within {worst_m:.2f} m of samples"
+    print(f"{len(tiles)} tiles, {vertices}; half a step is {greatest_m:.2f} m at most")
 
 
 main()
