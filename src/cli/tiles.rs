@@ -33,6 +33,14 @@ pub(super) struct Args {
     /// surface: tiles run on seas, lakes and rivers. none: on the ground, without water
     #[arg(long, value_name = "CHOICE", default_value = "surface", value_parser = ["surface", "none"])]
     water: String,
+    /// Vertices as whole numbers of 16 and 8 bits: tiles are about half as large. Viewers must know
+    /// KHR_mesh_quantization
+    #[arg(long)]
+    quantize: bool,
+    /// A binary file for each of the six faces tells of the tiles, instead of a list in tileset.json; levels up to 10.
+    /// Viewers must read boxes from the metadata of tiles, which not all do (docs/meshes.md)
+    #[arg(long)]
+    implicit: bool,
     #[command(flatten)]
     region: RegionArgs,
     #[command(flatten)]
@@ -47,6 +55,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         texture_px: args.texture,
         water: MeshWater::named(&args.water).unwrap_or_default(),
         detail: args.detail.detail,
+        is_quantized: args.quantize,
+        is_implicit: args.implicit,
         ..Tileset::new(args.levels)
     };
     tileset.check(&planet)?;

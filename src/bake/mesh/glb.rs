@@ -1,7 +1,9 @@
 //! Binary glTF 2.0 (Khronos 2021, "glTF 2.0 specification"): one file with the meshes and their textures. Levels of
-//! detail follow MSFT_lod: a reader that does not know it shows the finest level.
+//! detail follow MSFT_lod: a reader that does not know it shows the finest level. Quantised vertices follow
+//! KHR_mesh_quantization: a reader must know it.
 
 use super::geometry::Geometry;
+use super::quantize;
 use super::surface::{WATER_OPACITY, WATER_ROUGHNESS};
 use super::textures::Textures;
 use super::{Piece, level_name};
@@ -19,11 +21,13 @@ use std::path::Path;
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const UNSIGNED_SHORT: u32 = 5123;
+const BYTE: u32 = 5120;
 const ARRAY_BUFFER: u32 = 34_962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34_963;
 const LINEAR: u32 = 9729;
 const LINEAR_MIPMAP_LINEAR: u32 = 9987;
 const CLAMP_TO_EDGE: u32 = 33_071;
+const QUANTIZATION: &str = "KHR_mesh_quantization";
 const HEAD: usize = 12;
 const CHUNK_HEAD: usize = 8;
 
@@ -31,15 +35,16 @@ const CHUNK_HEAD: usize = 8;
 const COVERAGE: f64 = 0.5;
 
 /// Writes the file. `about`: what the root tells; `origin`: where the origin of the pieces is, in the frame and the
-/// units of the file.
+/// units of the file; `step`: if vertices are quantised, the units of the file in which positions of the pieces count.
 pub(super) fn write(
     planet: &Planet,
     about: &Value,
     path: &Path,
     pieces: &[Piece],
     origin: DVec3,
+    step: Option<f64>,
 ) -> Result<(), BakeError> {
-    let mut document = Document::new(planet, about);
+    let mut document = Document::new(planet, about, step);
     if origin != DVec3::ZERO {
         document.nodes[0]["translation"] = json!(origin.to_array());
     }
@@ -59,38 +64,116 @@ enum Part<'a> {
     /// Colours as whole numbers of 16 bits, opaque.
     Colors(&'a [Vec3]),
     Triangles(&'a Geometry),
+    /// The same as whole numbers of fewer bits.
+    ShortVectors(&'a [Vec3]),
+    ByteNormals(&'a [Vec3]),
+    ByteTangents(&'a [Vec3]),
+    ShortPlaces(&'a [Vec2]),
+    ShortTriangles(&'a Geometry),
     File(&'a [u8]),
 }
 
+/// How the elements of a part are told to a reader.
+struct Layout {
+    /// What the specification calls an element.
+    kind: &'static str,
+    /// The type of its numbers.
+    component: u32,
+    /// Whether whole numbers stand for 0 to 1, or -1 to 1.
+    is_normalized: bool,
+    /// Bytes from one element to the next.
+    stride: usize,
+    /// Whether the last of these bytes are none of the element.
+    is_padded: bool,
+}
+
 impl Part<'_> {
-    /// Length in bytes.
-    fn length(&self) -> usize {
+    /// Elements.
+    fn count(&self) -> usize {
         match self {
-            Part::Vectors(vectors) => vectors.len() * 12,
-            Part::Places(places) => places.len() * 8,
-            Part::Tangents(tangents) => tangents.len() * 16,
-            Part::Colors(colors) => colors.len() * 8,
-            Part::Triangles(geometry) => geometry.triangle_count() * 12,
+            Part::Vectors(vectors)
+            | Part::Tangents(vectors)
+            | Part::Colors(vectors)
+            | Part::ShortVectors(vectors)
+            | Part::ByteNormals(vectors)
+            | Part::ByteTangents(vectors) => vectors.len(),
+            Part::Places(places) | Part::ShortPlaces(places) => places.len(),
+            Part::Triangles(geometry) | Part::ShortTriangles(geometry) => geometry.triangle_count() * 3,
             Part::File(file) => file.len(),
         }
     }
 
-    fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let mut floats = |values: &[f32]| values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()));
+    fn layout(&self) -> Layout {
+        let layout = |kind, component, is_normalized, stride, is_padded| Layout {
+            kind,
+            component,
+            is_normalized,
+            stride,
+            is_padded,
+        };
         match self {
-            Part::Vectors(vectors) => vectors.iter().try_for_each(|vector| floats(&vector.to_array())),
-            Part::Places(places) => places.iter().try_for_each(|place| floats(&place.to_array())),
-            Part::Tangents(tangents) => tangents.iter().try_for_each(|tangent| floats(&tangent.extend(1.0).to_array())),
+            Part::Vectors(_) => layout("VEC3", FLOAT, false, 12, false),
+            Part::Places(_) => layout("VEC2", FLOAT, false, 8, false),
+            Part::Tangents(_) => layout("VEC4", FLOAT, false, 16, false),
+            Part::Colors(_) => layout("VEC4", UNSIGNED_SHORT, true, 8, false),
+            Part::Triangles(_) => layout("SCALAR", UNSIGNED_INT, false, 4, false),
+            // Whole numbers as they are: floats of 32 bits hold them exactly, which is not so of 65535ths.
+            Part::ShortVectors(_) => layout("VEC3", UNSIGNED_SHORT, false, 8, true),
+            Part::ByteNormals(_) => layout("VEC3", BYTE, true, 4, true),
+            Part::ByteTangents(_) => layout("VEC4", BYTE, true, 4, false),
+            Part::ShortPlaces(_) => layout("VEC2", UNSIGNED_SHORT, true, 4, false),
+            Part::ShortTriangles(_) => layout("SCALAR", UNSIGNED_SHORT, false, 2, false),
+            // No element of an accessor.
+            Part::File(_) => layout("SCALAR", BYTE, false, 1, false),
+        }
+    }
+
+    /// Length in bytes.
+    fn length(&self) -> usize {
+        self.count() * self.layout().stride
+    }
+
+    fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        match self {
+            Part::Vectors(vectors) => vectors.iter().try_for_each(|vector| floats(out, &vector.to_array())),
+            Part::Places(places) => places.iter().try_for_each(|place| floats(out, &place.to_array())),
+            Part::Tangents(tangents) => {
+                tangents.iter().try_for_each(|tangent| floats(out, &tangent.extend(1.0).to_array()))
+            }
             Part::Colors(colors) => colors.iter().try_for_each(|color| {
-                let numbers = color.extend(1.0).to_array().map(|value| (value * 65_535.0).round() as u16);
-                numbers.iter().try_for_each(|number| out.write_all(&number.to_le_bytes()))
+                shorts(out, &color.extend(1.0).to_array().map(|value| (value * 65_535.0).round() as u16))
             }),
             Part::Triangles(geometry) => {
                 geometry.triangles().flatten().try_for_each(|index| out.write_all(&index.to_le_bytes()))
             }
+            Part::ShortVectors(vectors) => {
+                vectors.iter().try_for_each(|vector| shorts(out, &quantize::position(*vector)))
+            }
+            Part::ByteNormals(normals) => {
+                normals.iter().try_for_each(|normal| bytes(out, quantize::unit(*normal, 0.0)))
+            }
+            Part::ByteTangents(tangents) => {
+                tangents.iter().try_for_each(|tangent| bytes(out, quantize::unit(*tangent, 1.0)))
+            }
+            Part::ShortPlaces(places) => places.iter().try_for_each(|place| shorts(out, &quantize::place(*place))),
+            Part::ShortTriangles(geometry) => {
+                geometry.triangles().flatten().try_for_each(|index| shorts(out, &[index as u16]))
+            }
             Part::File(file) => out.write_all(file),
         }
     }
+}
+
+fn floats(out: &mut impl Write, values: &[f32]) -> io::Result<()> {
+    values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
+}
+
+fn shorts(out: &mut impl Write, values: &[u16]) -> io::Result<()> {
+    values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
+}
+
+fn bytes(out: &mut impl Write, values: [i8; 4]) -> io::Result<()> {
+    out.write_all(&values.map(i8::cast_unsigned))
 }
 
 /// A document that grows by pieces.
@@ -108,11 +191,13 @@ struct Document<'a> {
     /// The nodes under the root.
     children: Vec<usize>,
     has_levels: bool,
+    /// Units of the file in one of the positions, if they are quantised.
+    step: Option<f64>,
     water_material: Value,
 }
 
 impl<'a> Document<'a> {
-    fn new(planet: &Planet, about: &Value) -> Self {
+    fn new(planet: &Planet, about: &Value, step: Option<f64>) -> Self {
         Self {
             parts: Vec::new(),
             length: 0,
@@ -124,6 +209,7 @@ impl<'a> Document<'a> {
             nodes: vec![json!({ "name": planet.name, "extras": about })],
             children: Vec::new(),
             has_levels: false,
+            step,
             water_material: water_material(planet.water.as_ref()),
         }
     }
@@ -143,7 +229,11 @@ impl<'a> Document<'a> {
         for (level, geometry) in levels.iter().enumerate() {
             let name = level_name(name, level, levels.len());
             let primitive = self.primitive(geometry, material, is_textured);
-            self.nodes.push(json!({ "name": name, "mesh": self.meshes.len() }));
+            let mut node = json!({ "name": name, "mesh": self.meshes.len() });
+            if let Some(step) = self.step {
+                node["scale"] = json!([step, step, step]);
+            }
+            self.nodes.push(node);
             self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
         }
         self.children.push(first);
@@ -157,35 +247,60 @@ impl<'a> Document<'a> {
     }
 
     fn primitive(&mut self, geometry: &'a Geometry, material: usize, is_textured: bool) -> Value {
-        let count = geometry.positions.len();
-        let mut attributes = json!({});
-        let mut add = |name: &str, part: Part<'a>, kind: &str, component: u32| {
-            let accessor = self.accessor(part, count, kind, component, ARRAY_BUFFER);
-            attributes[name] = json!(accessor);
-            accessor
+        let is_quantized = self.step.is_some();
+        let Geometry { positions, normals, uvs, tangents, colors, .. } = geometry;
+        let mut parts = if is_quantized {
+            vec![
+                ("POSITION", Part::ShortVectors(positions)),
+                ("NORMAL", Part::ByteNormals(normals)),
+                ("TEXCOORD_0", Part::ShortPlaces(uvs)),
+            ]
+        } else {
+            vec![
+                ("POSITION", Part::Vectors(positions)),
+                ("NORMAL", Part::Vectors(normals)),
+                ("TEXCOORD_0", Part::Places(uvs)),
+            ]
         };
-        let positions = add("POSITION", Part::Vectors(&geometry.positions), "VEC3", FLOAT);
-        add("NORMAL", Part::Vectors(&geometry.normals), "VEC3", FLOAT);
-        add("TEXCOORD_0", Part::Places(&geometry.uvs), "VEC2", FLOAT);
         if is_textured {
-            add("TANGENT", Part::Tangents(&geometry.tangents), "VEC4", FLOAT);
-        } else if !geometry.colors.is_empty() {
-            let colors = add("COLOR_0", Part::Colors(&geometry.colors), "VEC4", UNSIGNED_SHORT);
-            self.accessors[colors]["normalized"] = json!(true);
+            let part = if is_quantized { Part::ByteTangents(tangents) } else { Part::Tangents(tangents) };
+            parts.push(("TANGENT", part));
+        } else if !colors.is_empty() {
+            parts.push(("COLOR_0", Part::Colors(colors)));
         }
-        let [min, max] = geometry.bounds().map(|corner| corner.to_array());
-        self.accessors[positions]["min"] = json!(min);
-        self.accessors[positions]["max"] = json!(max);
-        let triangles = Part::Triangles(geometry);
-        let count = geometry.triangle_count() * 3;
-        let indices = self.accessor(triangles, count, "SCALAR", UNSIGNED_INT, ELEMENT_ARRAY_BUFFER);
+        let first = self.accessors.len();
+        let mut attributes = json!({});
+        for (name, part) in parts {
+            attributes[name] = json!(self.accessor(part, ARRAY_BUFFER));
+        }
+        let corners = geometry.bounds().map(|corner| if is_quantized { corner.round() } else { corner });
+        let [min, max] = corners.map(|corner| corner.to_array());
+        self.accessors[first]["min"] = json!(min);
+        self.accessors[first]["max"] = json!(max);
+        // The greatest number is none of an index.
+        let are_short = is_quantized && positions.len() <= usize::from(u16::MAX);
+        let triangles = if are_short { Part::ShortTriangles(geometry) } else { Part::Triangles(geometry) };
+        let indices = self.accessor(triangles, ELEMENT_ARRAY_BUFFER);
         json!({ "attributes": attributes, "indices": indices, "material": material })
     }
 
-    fn accessor(&mut self, part: Part<'a>, count: usize, kind: &str, component: u32, target: u32) -> usize {
+    fn accessor(&mut self, part: Part<'a>, target: u32) -> usize {
+        let (count, layout) = (part.count(), part.layout());
         let view = self.view(part);
         self.views[view]["target"] = json!(target);
-        self.accessors.push(json!({ "bufferView": view, "componentType": component, "count": count, "type": kind }));
+        if layout.is_padded {
+            self.views[view]["byteStride"] = json!(layout.stride);
+        }
+        let mut accessor = json!({
+            "bufferView": view,
+            "componentType": layout.component,
+            "count": count,
+            "type": layout.kind,
+        });
+        if layout.is_normalized {
+            accessor["normalized"] = json!(true);
+        }
+        self.accessors.push(accessor);
         self.accessors.len() - 1
     }
 
@@ -238,8 +353,16 @@ impl<'a> Document<'a> {
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.length }],
         });
+        let mut extensions = Vec::new();
         if self.has_levels {
-            document["extensionsUsed"] = json!(["MSFT_lod"]);
+            extensions.push("MSFT_lod");
+        }
+        if self.step.is_some() {
+            extensions.push(QUANTIZATION);
+            document["extensionsRequired"] = json!([QUANTIZATION]);
+        }
+        if !extensions.is_empty() {
+            document["extensionsUsed"] = json!(extensions);
         }
         // Empty arrays are not allowed.
         if !self.images.is_empty() {

@@ -10,17 +10,23 @@
 //! - region: the origin is the region's centre on the reference sphere, +X points east, +Y up, -Z north.
 //!
 //! - `square`: a square of the sphere, and the frame; `surface`: ground and water at points; `patch`: the vertices of a
-//!   square; `geometry`: triangles of a level of detail; `textures`; `glb`, `obj`: encoders;
-//!   `tileset`: 3D Tiles
+//!   square; `geometry`: triangles of a level of detail; `textures`; `quantize`: vertices as whole numbers; `glb`,
+//!   `obj`: encoders; `tileset`: 3D Tiles; `measures`: what a tile tells of itself; `implicit`: subtree
+//!   files
 
 mod geometry;
 mod glb;
+mod implicit;
+mod measures;
 mod obj;
 mod patch;
+mod quantize;
 mod square;
 mod surface;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_tiles;
 mod textures;
 mod tileset;
 
@@ -248,7 +254,7 @@ impl MeshBake {
         }
         match self.format {
             MeshFormat::Glb => {
-                glb::write(planet, &self.about(planet), path, &pieces, DVec3::ZERO)?;
+                glb::write(planet, &self.about(planet), path, &pieces, DVec3::ZERO, None)?;
                 Ok(Outcome::Done(vec![path.to_owned()]))
             }
             MeshFormat::Obj => obj::write(self, planet, path, &pieces).map(Outcome::Done),

@@ -40,6 +40,15 @@ impl Patch {
         Self { side, vertices, center_m: square.center_m() }
     }
 
+    /// A row of vertices at these positions, metres.
+    #[cfg(test)]
+    pub(super) fn of(positions_m: impl Iterator<Item = DVec3>, center_m: DVec3) -> Self {
+        let (normal, color) = (Vec3::Y, Vec3::ONE);
+        let vertices: Vec<_> =
+            positions_m.map(|position_m| Vertex { position_m, normal, color, water_radius_m: f64::NAN }).collect();
+        Self { side: vertices.len(), vertices, center_m }
+    }
+
     /// The vertex of a row and a column.
     pub(super) fn at(&self, row: usize, column: usize) -> &Vertex {
         &self.vertices[row * self.side + column]

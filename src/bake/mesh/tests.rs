@@ -17,7 +17,7 @@ const PLANET: &str = r#"(
 
 const REGION: Area = Area::Region(Region { lat_deg: 20.0, lon_deg: -40.0, side_km: 8.0 });
 
-fn terrain() -> Terrain {
+pub(super) fn terrain() -> Terrain {
     Terrain::try_new(Planet::from_text("islet.ron", PLANET).unwrap().into()).unwrap()
 }
 
@@ -256,7 +256,7 @@ fn what_cannot_be_made_is_refused() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
-fn tiles(levels: u8) -> Tileset {
+pub(super) fn tiles(levels: u8) -> Tileset {
     Tileset { cells: 4, ..Tileset::new(levels) }
 }
 
@@ -376,6 +376,7 @@ fn tiles_that_are_there_are_kept_and_those_of_another_bake_are_not_touched() {
         (Tileset { texture_px: Some(1), ..tiles(1) }, "use 2 to 1024"),
         (Tileset { water: MeshWater::Apart, ..tiles(1) }, "no mesh of the water"),
         (tiles(17), "use 0 to 16"),
+        (Tileset { is_implicit: true, ..tiles(11) }, "use 0 to 10, or list the tiles"),
         (tiles(9), "use fewer levels, or a region"),
     ] {
         let error = tileset.run(&terrain, &folder.path().join("none"), &|_| true).unwrap_err().to_string();

@@ -1,12 +1,15 @@
 //! 3D Tiles 1.1 (OGC 22-025r4): the globe as a tree of GLB files, one for each square of the quadtree, and the tileset
 //! that lists them. Four squares replace the one that they divide. Neighbours of one level share their borders to the
 //! bit; skirts hide the gaps between levels. The geometric error of a tile is measured: how far the vertices of the
-//! tiles that replace it lie from it.
+//! tiles that replace it lie from it. The tileset lists the tiles, or leaves that to a file for each face (`implicit`).
 //!
 //! Each file is written as a whole, so that an interrupted bake goes on with the files that are missing.
 
 use super::geometry::Geometry;
+use super::implicit::{self, Outline, Subtree};
+use super::measures::Measures;
 use super::patch::Patch;
+use super::quantize::Lattice;
 use super::square::Square;
 use super::surface::Surface;
 use super::textures::Textures;
@@ -16,16 +19,14 @@ use crate::bake::sidecar::of_planet;
 use crate::bake::{BakeError, Detail, Outcome, Region, make_folder};
 use crate::planet::file::write_atomically;
 use crate::planet::{Key, Planet, VERSION};
-use crate::sphere::{LatLon, NodeId, Tangent};
+use crate::sphere::{Face, LatLon, NodeId, Tangent};
 use crate::terrain::Terrain;
 use glam::DVec3;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::{self, Read as _};
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
 /// Finest level.
 const MAX_LEVEL: u8 = 16;
@@ -58,6 +59,11 @@ pub struct Tileset {
     pub water: MeshWater,
     /// How much of a structure is in the tiles.
     pub detail: Detail,
+    /// Whether vertices are whole numbers of 16 and 8 bits (KHR_mesh_quantization), which a viewer must know.
+    pub is_quantized: bool,
+    /// Whether a file for each face tells of its tiles, instead of the tileset (implicit tiling), which a viewer must
+    /// know. The tiles are the same.
+    pub is_implicit: bool,
 }
 
 impl Tileset {
@@ -66,11 +72,21 @@ impl Tileset {
 
     /// A tileset of the whole globe with colours at its vertices.
     pub fn new(levels: u8) -> Self {
-        Self { levels, region: None, cells: 64, texture_px: None, water: MeshWater::Surface, detail: Detail::All }
+        Self {
+            levels,
+            region: None,
+            cells: 64,
+            texture_px: None,
+            water: MeshWater::Surface,
+            detail: Detail::All,
+            is_quantized: false,
+            is_implicit: false,
+        }
     }
 
     /// Writes `tileset.json` and the tiles `LEVEL/FACE_X_Y.glb` to a folder, which is made if there is none. Tiles that
-    /// an earlier run of the same bake left there are kept. The tileset comes last.
+    /// an earlier run of the same bake left there are kept. The tileset comes last, after the files of the faces,
+    /// `subtrees/FACE_0_0_0.subtree`, if it is implicit.
     ///
     /// `go_on` is asked again and again, from several threads, with the share of the work that is done (0 to 1). If it
     /// answers no, the bake stops; the same bake goes on from there.
@@ -110,10 +126,19 @@ impl Tileset {
             measures.map(|measures| (*node, measures)).ok_or_else(|| BakeError::file(&path, "is no tile any more"))
         });
         let measures: HashMap<NodeId, Measures> = measured.collect::<Result<_, _>>()?;
-        let text = format!("{:#}\n", self.tileset(planet, &measures));
+        let outlines = self.outlines(planet, &nodes, &measures);
+        let mut files = vec![path.clone()];
+        let faces: Vec<Value> = if self.is_implicit {
+            let faces = subtrees(&outlines);
+            files.extend(write_subtrees(folder, &faces)?);
+            faces.iter().map(|(face, subtree)| subtree.root(*face)).collect()
+        } else {
+            NodeId::roots().map(|root| self.tile(planet, root, &outlines)).into()
+        };
+        let text = format!("{:#}\n", self.tileset(planet, &measures, &faces));
         write_atomically(&path, text.as_bytes()).map_err(|error| BakeError::file(&path, error))?;
-        let tiles = nodes.into_iter().map(|node| folder.join(uri(node)));
-        Ok(Outcome::Done([path].into_iter().chain(tiles).collect()))
+        files.extend(nodes.into_iter().map(|node| folder.join(uri(node))));
+        Ok(Outcome::Done(files))
     }
 
     /// Whether such a tileset of a planet can be written.
@@ -124,6 +149,12 @@ impl Tileset {
         planet.check_ground()?;
         if self.levels > MAX_LEVEL {
             return Err(format!("level {} is out of range; use 0 to {MAX_LEVEL}", self.levels));
+        }
+        if self.is_implicit && self.levels > implicit::MAX_LEVEL {
+            let (asked, most) = (self.levels, implicit::MAX_LEVEL);
+            return Err(format!(
+                "level {asked} is out of range of an implicit tileset; use 0 to {most}, or list the tiles"
+            ));
         }
         if !(2..=MAX_CELLS).contains(&self.cells) || !self.cells.is_multiple_of(2) {
             return Err(format!("{} cells are out of range; use even numbers from 2 to {MAX_CELLS}", self.cells));
@@ -170,7 +201,8 @@ impl Tileset {
         let program = (env!("CARGO_PKG_VERSION"), VERSION);
         let planet = Key::of_planet(planet);
         let water = self.water.name();
-        let key = Key::of(&(program, planet, self.cells, self.texture_px, water, self.detail));
+        let content = (program, planet, self.cells, self.texture_px, water, self.detail);
+        let key = if self.is_quantized { Key::of(&(content, "quantised")) } else { Key::of(&content) };
         let (path, wanted) = (folder.join("tiles.key"), format!("{:032x}\n", key.bits()));
         match std::fs::read_to_string(&path) {
             Ok(found) if found == wanted => Ok(()),
@@ -212,34 +244,43 @@ impl Tileset {
     fn write(&self, terrain: &Terrain, node: NodeId, path: &Path, progress: &Progress<'_>) -> Result<(), BakeError> {
         let planet = terrain.planet();
         let (radius_m, spacing_m) = (planet.radius_m(), self.spacing_m(planet, node.level));
-        let origin_planet_m = node.direction(0.5, 0.5) * radius_m;
-        let square = Square::of_node(node, radius_m, origin_planet_m);
+        let skirt_m = spacing_m * SKIRT;
+        // Floats count from the middle of the tile; whole numbers from a corner that follows from the vertices.
+        let middle_planet_m = if self.is_quantized { DVec3::ZERO } else { node.direction(0.5, 0.5) * radius_m };
+        let square = Square::of_node(node, radius_m, middle_planet_m);
         let surface = Surface { terrain, water: self.water, detail: self.detail };
-        let patch = Patch::new(&square, self.cells, &surface, progress);
+        let mut patch = Patch::new(&square, self.cells, &surface, progress);
         if progress.is_stopped() {
             return Ok(());
         }
+        let lattice = self.is_quantized.then(|| {
+            let step_m = Lattice::step_m(spacing_m * f64::from(self.cells), skirt_m);
+            let lattice = Lattice::around(&patch, skirt_m, step_m);
+            lattice.snap(&mut patch);
+            lattice
+        });
         let textures = self.texture_px.map(|px| Textures::new(&square, px, &patch, &surface, progress));
         let textures = textures.transpose().map_err(|error| BakeError::file(path, error))?;
         if progress.is_stopped() {
             return Ok(());
         }
-        let levels = vec![Geometry::new(&patch, 1, spacing_m * SKIRT, 1.0, textures.is_some())];
+        let step_m = lattice.as_ref().map(|lattice| lattice.step_m);
+        let scale = step_m.map_or(1.0, f64::recip);
+        let levels = vec![Geometry::new(&patch, 1, skirt_m, scale, textures.is_some())];
         let piece = Piece { name: square.name(), levels, water: Vec::new(), textures };
         let mut about = json!({ "spacing_m": spacing_m });
         about["measures"] = json!(Measures::of(&patch, radius_m));
-        glb::write(planet, &about, path, &[piece], square.turned(origin_planet_m))
+        let origin_m = lattice.map_or(square.turned(middle_planet_m), |lattice| lattice.corner_m());
+        glb::write(planet, &about, path, &[piece], origin_m, step_m)
     }
 
-    /// The list of tiles.
-    fn tileset(&self, planet: &Planet, measures: &HashMap<NodeId, Measures>) -> Value {
+    /// The tileset, with the tiles of the faces.
+    fn tileset(&self, planet: &Planet, measures: &HashMap<NodeId, Measures>, faces: &[Value]) -> Value {
         let mut about = of_planet(planet);
         about["water"] = json!(self.water.name());
         about["detail"] = json!(self.detail.name());
-        let roots = NodeId::roots().map(|root| self.tile(planet, root, measures));
-        let top_m = planet.radius_m() + roots.iter().map(|(_, whole)| whole.highest_m).fold(0.0, f64::max);
-        let children: Vec<Value> = roots.into_iter().map(|(tile, _)| tile).collect();
-        json!({
+        let top_m = planet.radius_m() + measures.values().map(|measures| measures.highest_m).fold(0.0, f64::max);
+        let mut tileset = json!({
             "asset": {
                 "version": "1.1",
                 "extras": about,
@@ -251,19 +292,43 @@ impl Tileset {
                 },
                 "geometricError": planet.radius_m(),
                 "refine": "REPLACE",
-                "children": children,
+                "children": faces,
             },
-        })
+        });
+        if self.is_implicit {
+            tileset["schema"] = implicit::schema();
+        }
+        tileset
     }
 
-    /// A tile with those that it is divided into, and what holds for all of them: the extremes, and the error of the
-    /// tile.
-    fn tile(&self, planet: &Planet, node: NodeId, measures: &HashMap<NodeId, Measures>) -> (Value, Measures) {
-        let mut whole = Measures { coarser_m: 0.0, ..measures.get(&node).copied().unwrap_or_default() };
+    /// A tile with those that it is divided into.
+    fn tile(&self, planet: &Planet, node: NodeId, outlines: &HashMap<NodeId, Outline>) -> Value {
         let mut tile = json!({ "content": { "uri": uri(node) } });
+        if let Some(outline) = outlines.get(&node) {
+            tile["geometricError"] = json!(outline.error_m);
+            tile["boundingVolume"] = json!({ "box": outline.bounds });
+        }
         if self.is_divided(planet, node) {
-            let children = node.children().map(|child| {
-                let (tile, part) = self.tile(planet, child, measures);
+            tile["children"] = json!(node.children().map(|child| self.tile(planet, child, outlines)));
+        }
+        tile
+    }
+
+    /// What holds for each tile and all that it is divided into: the box, and the error of the tile. The nodes come the
+    /// coarsest first.
+    fn outlines(
+        &self,
+        planet: &Planet,
+        nodes: &[NodeId],
+        measures: &HashMap<NodeId, Measures>,
+    ) -> HashMap<NodeId, Outline> {
+        let mut wholes = HashMap::with_capacity(nodes.len());
+        for node in nodes.iter().rev() {
+            let own = measures.get(node).copied().unwrap_or_default();
+            let mut whole = Measures { coarser_m: 0.0, ..own };
+            let parts = node.children().into_iter().filter(|_| self.is_divided(planet, *node));
+            for child in parts {
+                let part: Measures = wholes.get(&child).copied().unwrap_or_default();
                 // The tile is the mesh of every second vertex of its children.
                 let coarser_m = measures.get(&child).map_or(0.0, |measures| measures.coarser_m);
                 whole = Measures {
@@ -271,19 +336,19 @@ impl Tileset {
                     highest_m: whole.highest_m.max(part.highest_m),
                     coarser_m: whole.coarser_m.max(coarser_m + part.coarser_m),
                 };
-                tile
-            });
-            tile["children"] = json!(children);
+            }
+            wholes.insert(*node, whole);
         }
-        tile["geometricError"] = json!(whole.coarser_m);
-        tile["boundingVolume"] = json!({ "box": self.bounding_box(planet, node, &whole) });
-        (tile, whole)
+        let outline = |(node, whole): (NodeId, Measures)| {
+            (node, Outline { bounds: self.bounding_box(planet, node, &whole), error_m: whole.coarser_m })
+        };
+        wholes.into_iter().map(outline).collect()
     }
 
     /// A box around a tile with its skirt and all that it is divided into, in the planet frame, metres: its centre, and
     /// half of each side as a vector.
     fn bounding_box(&self, planet: &Planet, node: NodeId, whole: &Measures) -> [f64; 12] {
-        let around = Tangent::new(node.direction(0.5, 0.5));
+        let around = frame(node);
         // Numbers of tiles are floats of 32 bits.
         let low_m = planet.radius_m() + whole.lowest_m - self.spacing_m(planet, node.level) * SKIRT - ROUNDING_M;
         let high_m = planet.radius_m() + whole.highest_m + ROUNDING_M;
@@ -311,49 +376,38 @@ impl Tileset {
     }
 }
 
-/// What a tile tells of itself, in the file: a bake that goes on needs it of tiles that are there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Measures {
-    /// Extremes of its vertices over the reference sphere, lakes and seas included.
-    lowest_m: f64,
-    highest_m: f64,
-    /// Greatest distance of a vertex from the mesh of every second one.
-    coarser_m: f64,
+/// The files of the faces.
+fn subtrees(outlines: &HashMap<NodeId, Outline>) -> Vec<(Face, Subtree)> {
+    let mut faces: Vec<_> = Face::ALL.into_iter().map(|face| (face, Subtree::default())).collect();
+    for (node, outline) in outlines {
+        if let Some((_, subtree)) = faces.get_mut(node.face as usize) {
+            subtree.add(*node, *outline);
+        }
+    }
+    faces
 }
 
-impl Measures {
-    fn of(patch: &Patch, radius_m: f64) -> Self {
-        let mut measures = Self { lowest_m: f64::INFINITY, highest_m: f64::NEG_INFINITY, coarser_m: 0.0 };
-        for (i, vertex) in patch.vertices.iter().enumerate() {
-            let height_m = vertex.position_m.distance(patch.center_m) - radius_m;
-            measures.lowest_m = measures.lowest_m.min(height_m);
-            measures.highest_m = measures.highest_m.max(height_m);
-            let (row, column) = (i / patch.side, i % patch.side);
-            // The diagonal of a cell runs from its lower left to its upper right corner.
-            let (before, after) = match (row % 2, column % 2) {
-                (0, 0) => continue,
-                (0, _) => ((row, column - 1), (row, column + 1)),
-                (_, 0) => ((row - 1, column), (row + 1, column)),
-                _ => ((row + 1, column - 1), (row - 1, column + 1)),
-            };
-            let at = |(row, column): (usize, usize)| patch.at(row, column).position_m;
-            let away_m = vertex.position_m.distance(0.5 * (at(before) + at(after)));
-            measures.coarser_m = measures.coarser_m.max(away_m);
+/// Writes the files of the faces, except those that are there.
+fn write_subtrees(folder: &Path, faces: &[(Face, Subtree)]) -> Result<Vec<PathBuf>, BakeError> {
+    make_folder(&folder.join("subtrees"))?;
+    let write = |(face, subtree): &(Face, Subtree)| {
+        let (path, bytes) = (folder.join(implicit::uri(*face)), subtree.encode());
+        if !std::fs::read(&path).is_ok_and(|found| found == bytes) {
+            write_atomically(&path, &bytes).map_err(|error| BakeError::file(&path, error))?;
         }
-        measures
-    }
+        Ok(path)
+    };
+    faces.iter().map(write).collect()
+}
 
-    /// The measures in a file; None if it is no tile.
-    fn read(path: &Path) -> Option<Self> {
-        let mut file = File::open(path).ok()?;
-        let mut head = [0; 20];
-        file.read_exact(&mut head).ok()?;
-        let length = head.starts_with(b"glTF").then(|| u32::from_le_bytes([head[12], head[13], head[14], head[15]]))?;
-        let mut json = Vec::new();
-        file.take(length.into()).read_to_end(&mut json).ok()?;
-        let document: Value = serde_json::from_slice(&json).ok()?;
-        serde_json::from_value(document.get("nodes")?.get(0)?.get("extras")?.get("measures")?.clone()).ok()
+/// The axes of the box of a tile. Those of a face are its own, so that columns and rows of its tiles grow along them.
+fn frame(node: NodeId) -> Tangent {
+    let up_planet = node.direction(0.5, 0.5);
+    if node.level > 0 {
+        return Tangent::new(up_planet);
     }
+    let east_planet = (node.direction(1.0, 0.5) - node.direction(0.0, 0.5)).normalize();
+    Tangent { up_planet, east_planet, north_planet: up_planet.cross(east_planet) }
 }
 
 /// Angle from the centre of a node to its farthest corner.
