@@ -74,7 +74,8 @@ pub(super) fn unit(vector: Vec3, fourth: f32) -> [i8; 4] {
 
 /// Texture coordinates from 0 to 1, 65535 for 1.
 pub(super) fn place(uv: Vec2) -> [u16; 2] {
-    uv.to_array().map(|value| (value * 65_535.0).round() as u16)
+    // An f32 times 65535 is not exact in f32.
+    uv.to_array().map(|value| (f64::from(value) * 65_535.0).round() as u16)
 }
 
 #[cfg(test)]
