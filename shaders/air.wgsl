@@ -42,16 +42,13 @@ fn streamers(aside: vec3f, radii: f32, number: u32) -> f32 {
     return mix(1.0, 0.16 + 1.75 * broad, 0.35 + 0.65 * out) * (1.0 + fine);
 }
 
-// Share of the active sun's disc that the eye sees beside the bodies.
-fn seen_share() -> f32 {
+// Share of the active sun's disc that this body leaves visible to the eye, as a smooth sphere.
+fn share_beside_body() -> f32 {
     let sun = active_sun.seen_dir;
-    let away_km = body.radius_km + body.eye_altitude_km;
-    var share = luminance(sun_share(body.eye_up * away_km));
-    if dot(sun, body.eye_up) < 0.0 {
-        let apart = angle_of_sine(length(cross(sun, body.eye_up)));
-        share *= visible_share(active_sun.seen_radius_rad, angle_of_sine(body.radius_km / away_km), apart);
-    }
-    return share;
+    if dot(sun, body.eye_up) >= 0.0 { return 1.0; }
+    let apart = angle_of_sine(length(cross(sun, body.eye_up)));
+    let radius = angle_of_sine(body.radius_km / (body.radius_km + body.eye_altitude_km));
+    return visible_share(active_sun.seen_radius_rad, radius, apart);
 }
 
 struct SeenSun {
@@ -62,8 +59,8 @@ struct SeenSun {
 }
 
 // The active sun's disc, darker and redder towards its limb (linear limb darkening fitted to the Sun). A narrower disc
-// than a pixel has less light. Once a body covers the disc its corona shows, compressed to the range that
-// a display has; before, the corona is lost in the glare. `number`: the sun's.
+// than a pixel has less light. Once a body covers the disc its corona shows, compressed to the range that a display
+// has; before, the corona is lost in the glare. `number`: the sun's.
 fn seen_sun(dir: vec3f, number: u32) -> SeenSun {
     var seen = SeenSun(vec3f(0.0), vec3f(0.0));
     let sun = active_sun.seen_dir;
@@ -73,7 +70,9 @@ fn seen_sun(dir: vec3f, number: u32) -> SeenSun {
     let radius = max(own, soft);
     let radii = max(off / radius, 1.0);
     if dot(dir, sun) < 0.0 || radii > CORONA_RADII || active_sun.disc_gain <= 0.0 { return seen; }
-    let share = seen_share();
+    let beside_body = share_beside_body();
+    let beside_others = luminance(sun_share(body.eye_up * (body.radius_km + body.eye_altitude_km)));
+    let share = beside_body * beside_others;
     if share < GLARE_SHARE {
         let end = 1.0 - smoothstep(0.2, 1.0, radii / CORONA_RADII);
         let rays = streamers((dir - sun * dot(dir, sun)) / radius, radii, number);
@@ -81,8 +80,10 @@ fn seen_sun(dir: vec3f, number: u32) -> SeenSun {
         let shown = CORONA_GAIN * pow(corona(radii) * rays, CORONA_GAMMA) * end;
         seen.corona = color * (shown * (1.0 - share / GLARE_SHARE));
     }
-    // The soft edge of a covered disc does not reach beyond the body before it.
-    if off > radius + soft || share <= 0.0 { return seen; }
+    // The soft edge of a covered disc does not reach beyond the body before it. From near the body its ground decides:
+    // that of a basin lies below the sphere.
+    let is_far = body.eye_altitude_km > body.radius_km;
+    if off > radius + soft || beside_others * select(1.0, beside_body, is_far) <= 0.0 { return seen; }
     let full = active_sun.irradiance * active_sun.disc_gain * (own * own / (radius * radius));
     let edge = 1.0 - smoothstep(radius - soft, radius + soft, off);
     let x = saturate1(off / radius);

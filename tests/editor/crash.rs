@@ -52,6 +52,22 @@ fn work_that_a_crash_left_is_offered_to_one_editor() {
 }
 
 #[test]
+fn work_that_is_not_wanted_now_is_offered_at_the_next_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut harness, edited) = with_work(folder.path(), &Rc::default());
+    until(&mut harness, "a working copy", |_| folder.path().join("recovery-0.ron").exists());
+    drop(harness);
+    let mut first = open_file(None, NoDialogs, folder.path());
+    click(&mut first, "Not now");
+    assert!(first.query_by_label("Recover unsaved work?").is_none());
+    assert_ne!(planet(&first), edited);
+    drop(first);
+    let mut next = open_file(None, NoDialogs, folder.path());
+    click(&mut next, "Recover");
+    assert_eq!(planet(&next), edited);
+}
+
+#[test]
 fn an_error_of_the_device_is_told_once() {
     let folder = tempfile::tempdir().unwrap();
     let (mut harness, _) = with_work(folder.path(), &Rc::default());

@@ -45,6 +45,24 @@ fn unsaved_work_is_never_dropped_without_asking() {
     assert!(!harness.state().document().is_dirty());
 }
 
+/// The question comes once, after a file was chosen.
+#[test]
+fn opening_over_unsaved_work_asks_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("other.ron");
+    std::fs::write(&path, "(version: 3, name: \"Other\", radius_km: 900.0)").unwrap();
+    let mut harness = editor(vec![Some(path)]);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    send(&mut harness, Command::Open);
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("Then other.ron opens").is_some());
+    click(&mut harness, "Discard changes");
+    harness.run_steps(3);
+    assert_eq!(planet(&harness).name, "Other");
+    assert!(harness.query_by_label("Discard changes").is_none());
+}
+
 #[test]
 fn closing_the_window_with_unsaved_work_asks() {
     let mut harness = editor(vec![]);

@@ -66,6 +66,44 @@ fn escape_closes_the_window_on_top() {
 }
 
 #[test]
+fn escape_ends_a_comparison_once_no_window_is_open() {
+    let mut harness = editor(vec![]);
+    send(&mut harness, Command::Compare);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F8);
+    assert!(harness.state().viewport().compare().is_some());
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+    assert!(harness.state().viewport().compare().is_some(), "the window closes first");
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+    assert!(harness.state().viewport().compare().is_none());
+}
+
+/// A drag with Shift begins at the number that is there, wherever the slider is pressed.
+#[test]
+fn shift_drags_a_slider_finely() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Planet");
+    let before_km = planet(&harness).radius_km;
+    let rect = harness.get_by_role_and_label(Role::Slider, "Radius of planet").rect();
+    let (from, modifiers) = (rect.left_center() + egui::vec2(8.0, 0.0), egui::Modifiers::SHIFT);
+    let button =
+        |pos, pressed| egui::Event::PointerButton { pos, button: egui::PointerButton::Primary, pressed, modifiers };
+    harness.event(egui::Event::ModifiersChanged(modifiers));
+    harness.hover_at(from);
+    harness.run_steps(2);
+    harness.event(button(from, true));
+    harness.run_steps(2);
+    for _ in 0..2 {
+        harness.event(egui::Event::PointerMoved(from + egui::vec2(0.5 * rect.width(), 0.0)));
+        harness.run_steps(2);
+    }
+    harness.event(button(from + egui::vec2(0.5 * rect.width(), 0.0), false));
+    harness.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
+    harness.run_steps(3);
+    let grown = planet(&harness).radius_km / before_km;
+    assert!((1.04..1.06).contains(&grown), "half the slider: {grown}");
+}
+
+#[test]
 fn escape_ends_typing_before_it_closes_a_window() {
     let mut harness = editor(vec![]);
     click(&mut harness, "Planet");

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Planet, Rings};
+use tellus::planet::{Layer, Planet, Rings};
 use tellus::render::{Body, BodyId, Metering, Scene, Sun};
 use tellus::rings::Profile;
 use tellus::sphere::LatLon;
@@ -199,6 +199,21 @@ fn totality_is_a_dark_disc_in_a_corona() {
     println!("{shown:?}");
     assert!(shown[0].max(shown[1]) < 50 && shown[2] > 150, "{shown:?}");
     assert!(shown[2..].windows(2).all(|pair| pair[0] > pair[1]), "{shown:?}");
+}
+
+/// The horizon of low ground lies below that of the sphere: a star between the two is seen.
+#[test]
+fn a_star_is_seen_over_ground_below_the_sphere() {
+    let mut gpu = gpu();
+    let layer = Layer { amplitude_m: 10_000.0, bias: -4.0, ..Layer::default() };
+    let planet = Arc::new(Planet { layers: vec![layer], ..ball(1000.0) });
+    // 5.7 degrees below the horizontal the sphere ends, some 15 the ground.
+    let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), planet.radius_m() + 5e3, 0.0, -0.14, 0.2);
+    let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
+    let sun_dir = DVec3::new(-libm::sin(0.14), 0.0, libm::cos(0.14));
+    let brightest =
+        gpu.radiance(&scene(&surface, &planet, camera, sun_dir)).iter().map(|light| light[1]).fold(0.0, f32::max);
+    assert!(brightest > 100.0, "{brightest}");
 }
 
 /// A star at a distance lights each body from its own side, and more brightly what is nearer.

@@ -9,7 +9,8 @@ use crate::sphere::Tangent;
 use crate::terrain::{Sample, Search, Terrain, Wanted};
 use glam::{DQuat, DVec3};
 
-/// How far around the place below the eye is searched for ground, in radians of arc: the star is still up there.
+/// How far around the place below the eye is searched for ground, in radians of arc. Around the place over which a
+/// planet is first seen, the star is up that far.
 const REACH_RAD: f64 = 0.5;
 /// Points of the search across that reach.
 const STEPS: f64 = 60.0;

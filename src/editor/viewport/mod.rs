@@ -166,6 +166,7 @@ impl Viewport {
 
     /// Looks at the whole planet, as when it was opened.
     pub fn reset_view(&mut self, planet: &Planet) {
+        self.is_landing = false;
         let dive = self.cameras.dives();
         let lit = self.neighbours.as_ref().and_then(|neighbours| neighbours.lit_planet(self.settings.time_secs));
         self.cameras = Cameras::new(self.ground_radius_m, opening_place(lit.as_ref().unwrap_or(planet)));

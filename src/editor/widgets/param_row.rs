@@ -54,7 +54,7 @@ const RESET_WIDTH: f32 = 20.0;
 const NUMBER_WIDTH: f32 = 86.0;
 /// Upper end from which a range with both signs is wide.
 const WIDE: f64 = 10_000.0;
-/// How much slower a fine drag is.
+/// What a fine drag over the whole slider changes, as a share of the number.
 const FINE: f64 = 0.1;
 /// Significant digits of a number field, and of each of three fields side by side.
 const NUMBER_DIGITS: i32 = 5;
@@ -276,7 +276,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
             let response = add_slider(ui, &name, slider);
             if response.dragged() && ui.input(|input| input.modifiers.shift) {
                 let share = f64::from(response.drag_delta().x / response.rect.width());
-                **v = drag_finely(before, share, [min, max], logarithmic);
+                get_set(v, NUMBER_DIGITS)(Some(drag_finely(before, share, [min, max], logarithmic)));
             }
             focus(number_field(ui, &name, row.param, v, min, max, logarithmic));
         }
@@ -354,8 +354,7 @@ fn curve_edit<'a>(param: &Param, name: &'a str) -> Option<CurveEdit<'a>> {
     Some(CurveEdit { name, unit: param.unit, most, least_step, inputs: None })
 }
 
-/// A value after a fine drag over a share of the slider: a tenth of what the share is of the size of the number, or of
-/// the range where the number is small.
+/// A number after a fine drag over a share of the slider. A small one counts as a hundredth of a linear range.
 fn drag_finely(value: f64, share: f64, [min, max]: [f64; 2], logarithmic: bool) -> f64 {
     let size = if logarithmic { value.abs().max(1e-7 * max.abs()) } else { value.abs().max(0.01 * (max - min)) };
     (value + FINE * share * size).clamp(min, max)

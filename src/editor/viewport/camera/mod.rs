@@ -233,8 +233,7 @@ impl Cameras {
             let landed = Pose::new(up * (floor_m + walk::EYE_M), &attitude);
             self.fly(pose, landed, Rig::Walk(Walk::from_pose(&landed)), ground);
         } else if mode == Mode::Orbit && matches!(self.rig, Rig::Walk(_)) && self.flight.is_none() {
-            let orbit = Orbit::new(ground.radius_m(), LatLon::from_direction(up));
-            let over = Rig::Orbit(orbit);
+            let over = Rig::Orbit(Orbit::new(ground.radius_m(), LatLon::from_direction(up)));
             self.fly(pose, over.pose(ground), over, ground);
         } else {
             self.take_over(mode, &pose, ground);
