@@ -205,9 +205,9 @@ fn totality_is_a_dark_disc_in_a_corona() {
 #[test]
 fn a_star_is_seen_over_ground_below_the_sphere() {
     let mut gpu = gpu();
-    let layer = Layer { amplitude_m: 10_000.0, bias: -4.0, ..Layer::default() };
+    let layer = Layer { amplitude_m: 10_000.0, bias: -2.0, ..Layer::default() };
     let planet = Arc::new(Planet { layers: vec![layer], ..ball(1000.0) });
-    // 5.7 degrees below the horizontal the sphere ends, some 15 the ground.
+    // 5.7 degrees below the horizontal the sphere ends, more than 9 the ground.
     let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), planet.radius_m() + 5e3, 0.0, -0.14, 0.2);
     let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
     let sun_dir = DVec3::new(-libm::sin(0.14), 0.0, libm::cos(0.14));

@@ -274,7 +274,8 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
             let least = max.abs() * if is_wide { 1e-3 } else { 1e-5 };
             let slider = slider.logarithmic(logarithmic || is_wide).smallest_positive(least);
             let response = add_slider(ui, &name, slider);
-            if response.dragged() && ui.input(|input| input.modifiers.shift) {
+            // The press and the release move the handle to the pointer as well.
+            if response.interact_pointer_pos().is_some() && ui.input(|input| input.modifiers.shift) {
                 let share = f64::from(response.drag_delta().x / response.rect.width());
                 get_set(v, NUMBER_DIGITS)(Some(drag_finely(before, share, [min, max], logarithmic)));
             }
