@@ -7,6 +7,7 @@ use super::systems::{Climate, Effect, System, alive};
 use crate::planet::{Clouds, Planet, Rotation};
 use crate::sphere::spread;
 use crate::terrain::Terrain;
+use crate::terrain::edits::{Edits, Near};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
 use crate::world::EARTH_KM;
@@ -39,6 +40,8 @@ pub struct CloudField {
     ranks: [Ranks; LAYERS],
     targets: Targets,
     weather: Option<Arc<Weather>>,
+    /// Edits that paint clouds.
+    paint: Option<Arc<Edits>>,
     /// Shares of the sky that the layers cover, and the offsets of their log-odds.
     coverage: [f64; LAYERS],
     offsets: [f64; LAYERS],
@@ -90,11 +93,13 @@ impl CloudField {
             ],
             targets,
             weather,
+            paint: None,
             coverage: [f64::NAN; LAYERS],
             offsets: [0.0; LAYERS],
             drift_rad_s: clouds.wind_km_h / 3600.0 / planet.radius_km,
         };
         field.set_coverage(planet.clouds.as_ref().map_or([0.0; LAYERS], coverages));
+        field.set_paint(planet);
         let mut samples: [Vec<f32>; LAYERS] = std::array::from_fn(|_| Vec::with_capacity(SAMPLES));
         let systems = alive(&field.climate, 0.0);
         let dirs: Vec<DVec3> = spread(SAMPLES).collect();
@@ -127,7 +132,7 @@ impl CloudField {
             true => cover(rank, odds + self.offsets[k]),
             false => 0.0,
         };
-        let mut noise = Box::<Noise>::default();
+        let (mut noise, mut near) = (Box::<Noise>::default(), Near::default());
         let mut found = Vec::with_capacity(dirs_planet.len());
         for dirs in dirs_planet.chunks(CHUNK) {
             let dirs: Vec<DVec3> = dirs.iter().map(|&dir| crate::terrain::points::unit(dir)).collect();
@@ -137,10 +142,12 @@ impl CloudField {
             for ((ranks, systems), number) in ranks.iter_mut().zip(&systems).zip(before..) {
                 self.ranked(&drifted, number, systems, &mut noise, |i, ranked| ranks[i] = ranked);
             }
+            let mut painted = [0.0; CHUNK];
+            self.painted(&dirs, &mut near, |i, odds| painted[i] += odds);
             let mut fog_ranks = [0.0; CHUNK];
             self.fog_ranks(&dirs, &mut noise, |i, rank| fog_ranks[i] = f64::from(rank));
             for (i, &dir) in dirs.iter().enumerate() {
-                let (a, b, odds) = (ranks[0][i], ranks[1][i], self.odds(dir));
+                let (a, b, odds) = (ranks[0][i], ranks[1][i], self.odds(dir) + painted[i]);
                 found.push(CloudCover {
                     low: covered(0, blend(a.low, b.low), odds),
                     middle: covered(1, blend(a.middle, b.middle), odds),
@@ -184,7 +191,20 @@ impl CloudField {
         }
     }
 
-    /// Log-odds of the target cover without the offset.
+    /// The painted clouds of a planet in the place of those before. They change nothing beyond the strokes.
+    pub(crate) fn set_paint(&mut self, planet: &Planet) {
+        self.paint = Edits::new(planet).filter(|edits| edits.cloud_key().is_some());
+    }
+
+    /// By how much paint changes the log-odds of the target cover at directions: calls `each` with the number of a
+    /// direction and the change.
+    pub(super) fn painted(&self, dirs: &[DVec3], near: &mut Near, each: impl FnMut(usize, f64)) {
+        if let Some(paint) = &self.paint {
+            paint.clouded(dirs, near, each);
+        }
+    }
+
+    /// Log-odds of the target cover without the offset and without paint.
     pub(super) fn odds(&self, dir: DVec3) -> f64 {
         self.targets.odds(self.weather.as_deref(), dir)
     }

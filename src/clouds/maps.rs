@@ -4,6 +4,7 @@ use super::field::{CloudField, Ranked};
 use crate::planet::Planet;
 use crate::sea::relative_wind;
 use crate::sphere::cube::texture_direction;
+use crate::terrain::edits::Near;
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
 use half::f16;
@@ -85,7 +86,8 @@ pub(crate) fn ground_map(planet: &Planet, field: &CloudField, side: usize) -> Te
         })
     };
     let mut texels = vec![[f16::ZERO; 4]; 6 * side * side];
-    texels.par_chunks_mut(side).enumerate().for_each_init(Box::<Noise>::default, |noise, (row, texels)| {
+    texels.par_chunks_mut(side).enumerate().for_each_init(Default::default, |scratch, (row, texels)| {
+        let (noise, near): &mut (Box<Noise>, Near) = scratch;
         let (face, y) = (row / side, row % side);
         for (start, texels) in texels.chunks_mut(CHUNK).enumerate() {
             let columns = start * CHUNK..start * CHUNK + texels.len();
@@ -96,6 +98,7 @@ pub(crate) fn ground_map(planet: &Planet, field: &CloudField, side: usize) -> Te
                 let [odds, wind, fog_odds] = smooth(face, x, y).map(f16::from_f64);
                 texel[..3].copy_from_slice(&[odds, wind, fog_odds]);
             }
+            field.painted(&dirs, near, |i, odds| texels[i][0] = f16::from_f64(texels[i][0].to_f64() + odds));
         }
     });
     texels

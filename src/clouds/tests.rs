@@ -1,12 +1,25 @@
 use super::*;
-use crate::planet::{Clouds, Planet, shipped};
+use crate::planet::edits::{CloudPaint, EditPoints};
+use crate::planet::{Clouds, EditPoint, GroundEdit, Planet, Tool, shipped};
 use crate::simd::Simd;
-use crate::sphere::spread;
+use crate::sphere::{LatLon, spread};
 use glam::DVec3;
 
 fn planet(clouds: Clouds) -> Planet {
     let planet = Planet { clouds: Some(clouds), ..shipped::layered() };
     Planet { structure: None, ..planet }
+}
+
+/// The same planet with painted clouds around 20 N 30 E, over 2000 km.
+fn painted(planet: &Planet, amount: f64) -> Planet {
+    let stroke = GroundEdit {
+        tool: Tool::Clouds(CloudPaint { amount }),
+        radius_km: 2000.0,
+        softness: 0.3,
+        points: EditPoints(vec![EditPoint::under(LatLon::from_degrees(20.0, 30.0).direction())]),
+        ..GroundEdit::default()
+    };
+    Planet { edits: vec![stroke].into_iter().collect(), ..planet.clone() }
 }
 
 fn mean_cover(field: &CloudField, time_secs: f64, within: impl Fn(DVec3) -> bool) -> f64 {
@@ -155,7 +168,8 @@ fn maps_are_the_field() {
     const SIDE: usize = 64;
     let calm = Clouds { wind_km_h: 0.0, fog: 0.3, ..Clouds::default() };
     let crowded = Clouds { storms: 1.0, cyclones: 96, scale_km: 5000.0, ..calm.clone() };
-    for planet in [calm, crowded].map(planet) {
+    let planets = [calm, crowded].map(planet);
+    for planet in [painted(&planets[0], 0.2), painted(&planets[1], -0.2)].into_iter().chain(planets) {
         let field = CloudField::with(&planet, None);
         let frame = keyframe(&field, 3, SIDE);
         let ground = ground_map(&planet, &field, SIDE);
@@ -169,6 +183,29 @@ fn maps_are_the_field() {
             let asked = field.cover(dir, 3.0 * field::KEYFRAME_SECS);
             assert!((low - asked.low).abs() < 0.02, "{dir}: {low} {asked:?}");
             assert!((fog - asked.fog).abs() < 0.02, "{dir}: {fog} {asked:?}");
+        }
+    }
+}
+
+/// Paint gathers clouds or clears the sky where it lies, at any time, and changes nothing beyond its radius.
+#[test]
+fn painted_clouds_stay_over_their_place_and_leave_the_rest_as_it_is() {
+    let planet = planet(Clouds { coverage: 0.4, middle: 0.3, ..Clouds::default() });
+    let middle = LatLon::from_degrees(20.0, 30.0).direction();
+    let away_km = |dir: DVec3| dir.angle_between(middle) * planet.radius_km;
+    let (inside, outside): (Vec<DVec3>, Vec<DVec3>) =
+        spread(4000).filter(|dir| !(1300.0..2001.0).contains(&away_km(*dir))).partition(|dir| away_km(*dir) < 1300.0);
+    assert!(inside.len() > 30 && outside.len() > 3000);
+    let plain = CloudField::with(&planet, None);
+    for (amount, low, high) in [(1.0, 0.97, 1.0), (-1.0, 0.0, 0.03)] {
+        let field = CloudField::with(&painted(&planet, amount), None);
+        for time_secs in [0.0, 86_400.0 * 3.3] {
+            let covers = field.covers(&inside, time_secs);
+            let mean = |of: fn(&CloudCover) -> f64| covers.iter().map(of).sum::<f64>() / covers.len() as f64;
+            for mean in [mean(|cover| cover.low), mean(|cover| cover.middle)] {
+                assert!((low..=high).contains(&mean), "{amount}: {mean}");
+            }
+            assert_eq!(field.covers(&outside[..300], time_secs), plain.covers(&outside[..300], time_secs));
         }
     }
 }

@@ -50,7 +50,7 @@ pub fn run(path: Option<PathBuf>, maps: Option<Arc<MapStore>>) -> Result<(), Str
         viewport: egui::ViewportBuilder::default()
             .with_title("Tellus")
             .with_app_id(APP_ID)
-            .with_inner_size([1280.0, 800.0])
+            .with_inner_size([1240.0, 700.0])
             .with_min_inner_size([800.0, 500.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,

@@ -16,7 +16,7 @@ params! {
         /// How much colder it gets for each kilometre of height.
         lapse_c_per_km: f64 = 6.5, "Lapse rate", Unit::CelsiusPerKilometre, linear(0.0, 30.0), Stage::Uniform;
         /// Amplitude of the temperature noise.
-        temperature_variation_c: f64 = 5.0, "Temperature variation", Unit::Celsius, linear(0.0, 100.0), Stage::Climate;
+        temperature_variation_c: f64 = 5.0, "Temp. variation", Unit::Celsius, linear(0.0, 100.0), Stage::Climate;
         /// Moisture before noise, belts, height and sea are added; 0 is desert, 1 is rain forest.
         moisture: f64 = 0.5, "Moisture", Unit::None, linear(0.0, 1.0), Stage::Climate;
         /// Amplitude of the moisture noise.

@@ -26,10 +26,13 @@ pub(crate) struct CloudMaps {
     /// What the field depends on: the planet's key, and that of the structure's weather.
     key: Option<(Key, Option<Key>)>,
     field: Option<Arc<CloudField>>,
+    /// The key of the painted clouds in the ground map.
+    paint: Option<Key>,
     /// Numbers of the keyframes in the cubes 1 and 2: the even one first.
     held: [Option<i64>; 2],
-    /// The finest mip level that is there: 0, or [`DRAFT_LEVEL`].
+    /// The finest mip level that is there of keyframes, and of the ground map: 0, or [`DRAFT_LEVEL`].
     least_level: u32,
+    ground_level: u32,
     /// The next keyframe. The mutex only makes it shareable: nobody else waits.
     coming: Option<Mutex<Receiver<Keyframe>>>,
     /// Number of times that the maps were made from another field.
@@ -72,7 +75,18 @@ impl CloudMaps {
             dimension: Some(wgpu::TextureViewDimension::CubeArray),
             ..wgpu::TextureViewDescriptor::default()
         });
-        Self { texture, cubes, key: None, field: None, held: [None; 2], least_level: 0, coming: None, runs: 0 }
+        Self {
+            texture,
+            cubes,
+            key: None,
+            field: None,
+            paint: None,
+            held: [None; 2],
+            least_level: 0,
+            ground_level: 0,
+            coming: None,
+            runs: 0,
+        }
     }
 
     /// Brings the maps to a time, for a planet with clouds, or with a sea over which the solved wind blows. `drafts`:
@@ -92,16 +106,30 @@ impl CloudMaps {
             self.key != Some(key) || self.field.as_ref().is_none_or(|field| needs_middle && !field.has_middle());
         // The first maps are never drafts.
         let is_draft = drafts && self.key.is_some() && (is_changed || self.least_level > 0);
-        if is_changed || (self.least_level > 0 && !is_draft) {
+        let is_new = is_changed || (self.least_level > 0 && !is_draft);
+        if is_new {
             self.least_level = if is_draft { DRAFT_LEVEL } else { 0 };
             let field = match self.field.take().filter(|_| !is_changed) {
                 Some(field) => field,
                 None => Arc::new(CloudField::with(planet, weather.cloned())),
             };
-            self.write(queue, 0, ground_map(planet, &field, SIDE >> self.least_level));
             (self.key, self.held, self.coming) = (Some(key), [None; 2], None);
             self.field = Some(field);
             self.runs += u64::from(is_changed);
+        }
+        let Some(field) = &mut self.field else { return CloudFrame::default() };
+        // Paint changes the ground map alone.
+        let paint = revision.keys().cloud_paint();
+        let wanted = match self.paint != paint {
+            _ if is_new => Some(self.least_level),
+            true => Some(if drafts { DRAFT_LEVEL } else { self.least_level }),
+            false => (!drafts && self.ground_level > 0).then_some(self.least_level),
+        };
+        if let Some(level) = wanted {
+            Arc::make_mut(field).set_paint(planet);
+            let texels = ground_map(planet, field, SIDE >> level);
+            (self.paint, self.ground_level) = (paint, level);
+            self.write(queue, 0, level, texels);
         }
         let Some(field) = &mut self.field else { return CloudFrame::default() };
         let Some(clouds) = &planet.clouds else { return CloudFrame::default() };
@@ -121,7 +149,7 @@ impl CloudMaps {
         let is_odd = before.rem_euclid(2) == 1;
         let odd_share = if is_odd { 1.0 - share } else { share } as f32;
         let offsets = Vec4::from_array(field.offsets().map(|offset| offset as f32));
-        CloudFrame { offsets, odd_share, least_level: self.least_level as f32 }
+        CloudFrame { offsets, odd_share, least_level: self.least_level.max(self.ground_level) as f32 }
     }
 
     /// Makes sure that a keyframe is in its cube, and asks for the one after it.
@@ -133,7 +161,7 @@ impl CloudMaps {
         let coming = self.coming.take().and_then(|coming| coming.into_inner().ok()?.recv().ok());
         let is_next = coming.as_ref().is_some_and(|frame| frame.number == number);
         let frame = coming.filter(|_| is_next).unwrap_or_else(|| keyframe(field, number, SIDE >> self.least_level));
-        self.write(queue, 1 + slot as u32, frame.texels);
+        self.write(queue, 1 + slot as u32, self.least_level, frame.texels);
         self.held[slot] = Some(number);
         // Time goes on: its neighbour is there already.
         if self.held[1 - slot] == Some(number - 1) && self.least_level == 0 {
@@ -146,9 +174,9 @@ impl CloudMaps {
         }
     }
 
-    /// Writes a cube, from the finest level that is there to the coarsest.
-    fn write(&self, queue: &wgpu::Queue, cube: u32, mut level: Texels) {
-        for mip_level in self.least_level..CLOUD_MAP_LEVELS {
+    /// Writes a cube, from a mip level to the coarsest.
+    fn write(&self, queue: &wgpu::Queue, cube: u32, finest: u32, mut level: Texels) {
+        for mip_level in finest..CLOUD_MAP_LEVELS {
             let side = CLOUD_MAP_SIDE >> mip_level;
             let bytes: Vec<u8> = level.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
             let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 6 };

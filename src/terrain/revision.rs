@@ -66,6 +66,8 @@ pub struct Keys {
     climate: Key,
     materials: Key,
     cloud_map: Key,
+    /// Of painted clouds; None if there are none.
+    cloud_paint: Option<Key>,
     optical_depth: Key,
     air_tables: Key,
 }
@@ -76,9 +78,14 @@ impl Keys {
         self.materials
     }
 
-    /// The key of the cloud coverage map.
+    /// The key of the cloud coverage map, without paint.
     pub fn cloud_map(&self) -> Key {
         self.cloud_map
+    }
+
+    /// The key of painted clouds; None if there are none.
+    pub fn cloud_paint(&self) -> Option<Key> {
+        self.cloud_paint
     }
 
     /// The key of the LUT of optical depth.
@@ -102,7 +109,7 @@ impl Keys {
             (Stage::ClimateNoise, self.climate_noise != before.climate_noise),
             (Stage::Climate, self.heights != before.heights || self.climate != before.climate),
             (Stage::Material, self.materials != before.materials),
-            (Stage::CloudMap, self.cloud_map != before.cloud_map),
+            (Stage::CloudMap, (self.cloud_map, self.cloud_paint) != (before.cloud_map, before.cloud_paint)),
             (Stage::OpticalDepth, self.optical_depth != before.optical_depth),
             (Stage::AirTables, self.air_tables != before.air_tables),
         ];
@@ -210,6 +217,7 @@ impl Compiled {
             climate: tiles.climate,
             materials,
             cloud_map,
+            cloud_paint: edits.as_ref().and_then(|edits| edits.cloud_key()),
             optical_depth,
             air_tables,
         };
@@ -238,7 +246,7 @@ fn structure_inputs(planet: &Planet) -> Option<Arc<StructureInputs>> {
 fn texture_keys(planet: &Planet) -> [Key; 4] {
     const STAGES: [Stage; 4] = [Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables];
     let mut read: [Vec<(ParamPath, Value)>; 4] = Default::default();
-    // Edits change heights alone, and may be thousands.
+    // Edits have keys of their own, and may be thousands.
     let bare = Planet { edits: GroundEdits::default(), ..planet.clone() };
     bare.each_value(&mut |path, param, value| {
         for (stage, read) in STAGES.iter().zip(&mut read) {

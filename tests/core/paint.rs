@@ -6,9 +6,10 @@ use glam::DVec3;
 use std::sync::Arc;
 use tellus::planet::Planet;
 use tellus::planet::edits::{
-    BiomePaint, GroundEdit, Mesa, MoisturePaint, PaintMode, Raise, Smooth, TemperaturePaint, Tool,
+    BiomePaint, CloudPaint, GroundEdit, Mesa, MoisturePaint, PaintMode, Raise, Smooth, TemperaturePaint, Tool,
 };
-use tellus::terrain::Terrain;
+use tellus::planet::param::{Stage, Stages};
+use tellus::terrain::{Revision, Terrain};
 use tellus::tiles::{Builder, Surface, build_now};
 
 #[test]
@@ -148,4 +149,22 @@ fn paint_changes_the_climate_of_samples_and_of_tiles_alike_and_no_height() {
         surface.leaves.iter().map(|leaf| (leaf.tile.id, leaf.tile.vertices.clone())).collect()
     };
     assert!(vertices(&second) == vertices(&build_now(&Arc::new(flat), &view).unwrap()));
+}
+
+#[test]
+fn painted_clouds_rebuild_no_tile() {
+    let clouds = |amount| edit(Tool::Clouds(CloudPaint { amount }), 300.0, &[at(12.0, -70.0)]);
+    let planet = planet(900.0, every_tool());
+    let view = view(12.0, -70.0, 4e4);
+    let builder = Builder::new(|| {});
+    settled(&builder, &planet, &view);
+    let mut before = Revision::try_new(Arc::new(planet.clone())).unwrap();
+    for amount in [1.0, -0.5] {
+        let mut painted = planet.clone();
+        painted.edits.push(clouds(amount));
+        assert_eq!(settled(&builder, &painted, &view).stats.tiles_built, 0);
+        let after = Revision::try_new(Arc::new(painted)).unwrap();
+        assert_eq!(after.changes_since(&before), Stages::of(&[Stage::CloudMap]));
+        before = after;
+    }
 }

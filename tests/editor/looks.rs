@@ -3,7 +3,7 @@
 
 use crate::app::{self, Editor, send};
 use eframe::egui;
-use tellus::editor::command::{Action, Command};
+use tellus::editor::command::{Action, Command, SystemAction};
 
 /// Small differences of drivers: how far a pixel may be off, and how many may be farther.
 const THRESHOLD: f32 = 1.0;
@@ -49,6 +49,29 @@ fn photographs() {
 #[test]
 fn the_text() {
     looks_as_it_did(Command::Text, "text");
+}
+
+#[test]
+fn the_library() {
+    looks_as_it_did(Command::Library, "library");
+}
+
+#[test]
+fn the_variations() {
+    looks_as_it_did(Command::Variations, "variations");
+}
+
+#[test]
+fn a_bake() {
+    looks_as_it_did(Command::Bake, "bake");
+}
+
+#[test]
+fn a_system() {
+    let mut harness = app::open_without_planet([800.0, 500.0]);
+    harness.state_mut().push(Action::System(SystemAction::Open(0)));
+    harness.run_steps(10);
+    is_same(&mut harness, "system");
 }
 
 #[test]

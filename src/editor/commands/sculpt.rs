@@ -25,6 +25,7 @@ const TOOLS: [(&str, &str); Tool::NAMES.len()] = [
     ("Sculpt: moisture", "Paint the climate wetter with drags; with Shift drier."),
     ("Sculpt: temperature", "Paint the climate warmer with drags; with Shift colder."),
     ("Sculpt: biome", "Paint a biome with drags."),
+    ("Sculpt: clouds", "Paint clouds with drags; with Shift clear the sky."),
 ];
 
 pub(super) fn rows() -> Vec<Row> {

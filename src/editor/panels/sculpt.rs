@@ -97,7 +97,7 @@ impl SculptState {
             let seen_km = if self.altitude_m > 0.0 { FIRST_OF_ALTITUDE * 1e-3 * self.altitude_m } else { most_km };
             let radius_km = tidy_km(seen_km.max(LEAST_FIRST_KM).min(most_km));
             let tool = Tool::of_kind(self.tool).unwrap_or_default();
-            self.brushes.push((self.tool, GroundEdit { tool, radius_km, ..GroundEdit::default() }));
+            self.brushes.push((self.tool, GroundEdit { radius_km, ..GroundEdit::of(tool) }));
             self.brushes.len() - 1
         });
         if let Tool::Biome(paint) = &mut self.brushes[at].1.tool
@@ -182,7 +182,7 @@ fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let skip = skipped(&NOT_OF_BRUSH, &brush.tool);
     let grid = Grid { base, owner, skip: &skip, shown, biomes: &biomes };
     let default_tool = Tool::of_kind(tool).unwrap_or_default();
-    let mut default = GroundEdit { tool: default_tool, radius_km: brush.radius_km, ..GroundEdit::default() };
+    let mut default = GroundEdit { radius_km: brush.radius_km, ..GroundEdit::of(default_tool) };
     let before = brush.tool.index();
     params_grid(ui, &grid, brush, &mut default);
     if let (Tool::Flatten(Flatten { height_m, .. }), Some(sea_m)) = (&mut brush.tool, sea_m) {
@@ -343,7 +343,7 @@ fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     }
     let renamed = edit.name != name;
     let tool = Tool::of_kind(edit.tool.index()).unwrap_or_default();
-    let mut default = GroundEdit { tool, ..GroundEdit::default() };
+    let mut default = GroundEdit::of(tool);
     let biomes = names(&draft.planet.biomes);
     let skip = skipped(&OWN_ROWS, &edit.tool);
     let grid = Grid { base: edit_path(index), owner: &name, skip: &skip, shown: draft.shown, biomes: &biomes };
@@ -362,8 +362,11 @@ fn skipped(list: &[&'static str], tool: &Tool) -> Vec<&'static str> {
     [list, ground, stamp].concat()
 }
 
-/// Says why paint of a biome does nothing, or not all.
+/// Says why paint does nothing, or not all.
 fn unpaintable(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
+    if let (Tool::Clouds(_), None) = (tool, &planet.clouds) {
+        ui.weak("The planet has no clouds: switch them on in the Clouds tab, or nothing is painted.");
+    }
     let Tool::Biome(paint) = tool else { return };
     let biomes = &planet.biomes;
     if !biomes.table.rows().iter().any(|row| row.contains(paint.biome)) {

@@ -131,6 +131,18 @@ impl<T: PartialEq, H> History<T, H> {
         self.undo.iter().chain(self.redo.iter().rev()).map(|step| step.label.as_str())
     }
 
+    /// The documents before and after the step of this index among [`History::labels`]. `current`: the document now.
+    pub fn sides<'a>(&'a self, step: usize, current: &'a Arc<T>) -> Option<(&'a Arc<T>, &'a Arc<T>)> {
+        let (done, all) = (self.undo.len(), self.len());
+        // The documents in order: before each step that is done, now, after each step that can be redone.
+        let document = |at: usize| match at {
+            at if at < done => self.undo.get(at).map(|step| &step.document),
+            at if at == done => Some(current),
+            at => all.checked_sub(at).and_then(|from_end| self.redo.get(from_end)).map(|step| &step.document),
+        };
+        Some((document(step)?, document(step + 1)?))
+    }
+
     /// Number of all steps.
     pub fn len(&self) -> usize {
         self.undo.len() + self.redo.len()
@@ -184,6 +196,24 @@ mod tests {
         assert_eq!(history.redo_label(), Some("Change seed"));
         assert_eq!(history.redo(&planet(0), &mut Home::default()), Some(planet(3)));
         assert_eq!(history.undo_label(), Some("Change seed"));
+    }
+
+    #[test]
+    fn each_step_has_the_documents_of_its_sides() {
+        let mut history = History::<Planet, Home>::default();
+        for seed in 0..4 {
+            history.record(&planet(seed), "Change seed");
+            history.settle(&planet(seed + 1));
+        }
+        let mut now = planet(4);
+        for undone in 0..4 {
+            for step in 0..4 {
+                let sides = history.sides(step, &now).map(|(before, after)| (before.seed, after.seed));
+                assert_eq!(sides, Some((step as u32, step as u32 + 1)), "{undone} undone");
+            }
+            assert_eq!(history.sides(4, &now), None);
+            now = history.undo(&now, &mut Home::default()).unwrap();
+        }
     }
 
     #[test]

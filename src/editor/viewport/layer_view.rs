@@ -4,7 +4,7 @@
 //! The overlay is evaluated on another thread at a grid of points over the picture, so that it shows any quantity the
 //! evaluator knows, at any distance, and costs the renderer nothing.
 
-use crate::editor::state::job::Job;
+use crate::editor::state::job::{GoOn, Job};
 use crate::editor::widgets::number::length_text;
 use crate::lod::View;
 use crate::planet::Planet;
@@ -15,10 +15,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Distance between points of the grid, in points of the window.
-const SPACING: f32 = 7.0;
+/// Distance between points of the grid, in points of the window: at first, and once the view rests.
+const SPACINGS: [f32; 2] = [7.0, 2.0];
 /// Most points of the grid along a side.
-const MOST: f32 = 240.0;
+const MOST: [f32; 2] = [240.0, 800.0];
+/// Rows of the grid that are evaluated before the work may be stopped.
+const STRIP: usize = 8;
 /// Opacity of the overlay.
 const OPACITY: f32 = 0.72;
 /// Height of the eye, in units of the tallest relief, from which points lie on the mean sphere.
@@ -60,11 +62,9 @@ struct Question {
 }
 
 impl Question {
+    /// Whether both ask the same, at any spacing.
     fn same_as(&self, other: &Self) -> bool {
-        self.view == other.view
-            && self.overlay == other.overlay
-            && self.size == other.size
-            && Arc::ptr_eq(&self.surface, &other.surface)
+        self.view == other.view && self.overlay == other.overlay && Arc::ptr_eq(&self.surface, &other.surface)
     }
 }
 
@@ -81,7 +81,7 @@ pub struct LayerView {
     seen: Option<Seen>,
     shown: Option<(Question, Values)>,
     texture: Option<egui::TextureHandle>,
-    under_way: Option<(Question, Job<Values>)>,
+    under_way: Option<(Question, Job<Option<Values>>)>,
 }
 
 impl LayerView {
@@ -147,11 +147,18 @@ impl LayerView {
             (self.shown, self.texture, self.under_way) = (None, None, None);
             return;
         };
-        let size = [rect.width(), rect.height()].map(|side| (side / SPACING).clamp(2.0, MOST) as usize);
-        let question = Question { view: *view, surface: Arc::clone(surface), overlay, size };
+        let [coarse, fine] = [0, 1].map(|step| {
+            [rect.width(), rect.height()].map(|side| (side / SPACINGS[step]).clamp(2.0, MOST[step]) as usize)
+        });
+        let mut question = Question { view: *view, surface: Arc::clone(surface), overlay, size: coarse };
         self.receive(ui);
-        let is_shown = self.shown.as_ref().is_some_and(|(shown, _)| shown.same_as(&question));
-        if !is_shown && self.under_way.is_none() {
+        // The fine grid takes long: the coarse one of another view does not wait for it.
+        self.under_way.take_if(|(asked, _)| asked.size != coarse && !asked.same_as(&question));
+        let shown = self.shown.as_ref().filter(|(shown, _)| shown.same_as(&question)).map(|(shown, _)| shown.size);
+        if shown.is_some() {
+            question.size = fine;
+        }
+        if shown != Some(fine) && self.under_way.is_none() {
             self.ask(ui, question.clone());
         }
         // An overlay of another view would lie in the wrong place.
@@ -164,13 +171,14 @@ impl LayerView {
 
     fn ask(&mut self, ui: &egui::Ui, question: Question) {
         let (asked, ctx) = (question.clone(), ui.ctx().clone());
-        let job = Job::start(move |_| evaluate(&asked), move || ctx.request_repaint());
+        let job = Job::start(move |go_on| evaluate(&asked, go_on), move || ctx.request_repaint());
         self.under_way = Some((question, job));
     }
 
     fn receive(&mut self, ui: &egui::Ui) {
         let Some(ended) = self.under_way.as_ref().and_then(|(_, job)| job.ended()) else { return };
         let Some((question, _)) = self.under_way.take() else { return };
+        let ended = ended.flatten();
         // What could not be evaluated is not asked again: it has no values.
         let values = ended.unwrap_or_default();
         let pixels = values.values.iter().map(|value| color(question.overlay.quantity, *value, values.most));
@@ -197,7 +205,8 @@ pub fn color(quantity: LayerQuantity, value: f32, most: f32) -> Color32 {
     full.gamma_multiply(OPACITY * share.abs().sqrt())
 }
 
-fn evaluate(question: &Question) -> Values {
+/// The values of a grid; None if it was told to stop.
+fn evaluate(question: &Question, go_on: GoOn<'_>) -> Option<Values> {
     let Question { view, surface, overlay, size } = question;
     let (terrain, camera) = (&surface.terrain, &view.camera);
     let (radius_m, eye) = (terrain.planet().radius_m(), camera.position_planet_m);
@@ -215,24 +224,29 @@ fn evaluate(question: &Question) -> Values {
         let distance_m = if is_far { sphere(eye, ray, radius_m) } else { terrain.raycast(eye, ray) };
         distance_m.map(|distance_m| (eye + ray * distance_m).normalize_or(DVec3::Z))
     };
-    let hits: Vec<Option<DVec3>> = (0..width * height).into_par_iter().with_min_len(16).map(hit).collect();
-    let dirs: Vec<DVec3> = hits.iter().flatten().copied().collect();
-    let mut effects = terrain.layer_effects(&dirs, overlay.layer, spacing_rad).into_iter();
-    let values: Vec<f32> = hits
-        .iter()
-        .map(|hit| {
+    let mut values = Vec::with_capacity(width * height);
+    for top in (0..height).step_by(STRIP) {
+        // The share stays 0: nothing shows it.
+        if !go_on(0.0) {
+            return None;
+        }
+        let points = top * width..(top + STRIP).min(height) * width;
+        let hits: Vec<Option<DVec3>> = points.into_par_iter().with_min_len(16).map(hit).collect();
+        let dirs: Vec<DVec3> = hits.iter().flatten().copied().collect();
+        let mut effects = terrain.layer_effects(&dirs, overlay.layer, spacing_rad).into_iter();
+        values.extend(hits.iter().map(|hit| {
             let effect = hit.and_then(|_| effects.next());
             effect.map_or(f32::NAN, |effect| match overlay.quantity {
                 LayerQuantity::Mask => effect.mask as f32,
                 LayerQuantity::Change => effect.change_m as f32,
             })
-        })
-        .collect();
+        }));
+    }
     let most = match overlay.quantity {
         LayerQuantity::Mask => 1.0,
         LayerQuantity::Change => values.iter().fold(0.0_f32, |most, value| most.max(value.abs())),
     };
-    Values { size: *size, values, most }
+    Some(Values { size: *size, values, most })
 }
 
 /// Distance along a ray to a sphere about the centre.
@@ -262,12 +276,13 @@ mod tests {
     #[test]
     fn the_grid_holds_what_the_layer_does_at_its_points_and_nothing_in_the_sky() {
         let far = question(6e7, LayerQuantity::Change);
-        let values = evaluate(&far);
+        let values = evaluate(&far, &|_| true).unwrap();
+        assert!(evaluate(&far, &|_| false).is_none(), "stopped");
         assert!(values.values[0].is_nan(), "the corner is sky");
         assert!(values.values[12 * 24 + 12].is_finite(), "the middle is ground");
         assert!(values.most > 1.0);
         let near = question(3000.0, LayerQuantity::Mask);
-        let values = evaluate(&near);
+        let values = evaluate(&near, &|_| true).unwrap();
         assert!(values.values.iter().all(|mask| (0.0..=1.0).contains(mask)));
     }
 

@@ -346,6 +346,7 @@ fn invert(tool: &mut Tool) {
         Tool::Coast(coast) => coast.flip = !coast.flip,
         Tool::Moisture(paint) if paint.mode == PaintMode::Shift => paint.moisture = -paint.moisture,
         Tool::Temperature(paint) if paint.mode == PaintMode::Shift => paint.temperature_c = -paint.temperature_c,
+        Tool::Clouds(paint) => paint.amount = -paint.amount,
         _ => {}
     }
 }

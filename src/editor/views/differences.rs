@@ -1,10 +1,14 @@
 //! The differences between two planets, as lines of text.
 
 use crate::editor::state::describe::locked;
+use crate::editor::widgets::number::{format_number, suffix};
 use crate::editor::widgets::value_text::value_text;
-use crate::planet::param::{ParamPath, Segment};
+use crate::planet::param::{ParamPath, Segment, Value};
 use crate::planet::{Planet, diff};
 use std::collections::HashMap;
+
+/// Longest text of the values before and after a change, in characters.
+const MOST_OF_VALUES: usize = 32;
 
 /// A line for each parameter that differs: "amplitude of Hills: 800 m, in the file 900 m".
 pub(super) fn lines(mine: &Planet, theirs: &Planet) -> Vec<String> {
@@ -26,6 +30,29 @@ pub(super) fn lines(mine: &Planet, theirs: &Planet) -> Vec<String> {
     }
     lines.dedup();
     lines
+}
+
+/// The value before and after a change of one parameter: "800 m → 900 m".
+pub(super) fn values(before: &Planet, after: &Planet) -> Option<String> {
+    let changes = diff::diff(before, after);
+    let [only] = changes.as_slice() else { return None };
+    let values = format!("{} → {}", short_text(before, only)?, short_text(after, only)?);
+    (values.chars().count() <= MOST_OF_VALUES).then_some(values)
+}
+
+/// The value at a path, rounded as in its field.
+fn short_text(planet: &Planet, wanted: &ParamPath) -> Option<String> {
+    let mut found = None;
+    planet.each_value(&mut |path, param, value| {
+        if path == wanted && found.is_none() {
+            found = match value.get() {
+                Value::Number(number) => Some(format!("{}{}", format_number(number), suffix(param.unit))),
+                Value::Curve(_) | Value::Triple(_) => None,
+                other => Some(value_text(param, &other, value.labels())),
+            };
+        }
+    });
+    found
 }
 
 /// The layer, biome or part that holds a parameter.
@@ -61,5 +88,16 @@ mod tests {
             ]
         );
         assert!(super::lines(&mine, &mine).is_empty());
+    }
+
+    #[test]
+    fn a_change_of_one_parameter_shows_its_values() {
+        let layer = |amplitude_m, bias| Planet {
+            layers: vec![Layer { amplitude_m, bias, ..Layer::default() }],
+            ..Planet::default()
+        };
+        assert_eq!(values(&layer(800.0, 0.5), &layer(912.3456, 0.5)).as_deref(), Some("800 m → 912.3 m"));
+        assert_eq!(values(&layer(800.0, 0.5), &layer(900.0, 0.6)), None, "two parameters");
+        assert_eq!(values(&layer(800.0, 0.5), &layer(800.0, 0.5)), None);
     }
 }

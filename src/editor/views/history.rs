@@ -1,12 +1,16 @@
 //! The window of the undo steps: each with its name, the current one marked. A click or Enter goes to a step.
 
+use super::{differences, look};
 use crate::editor::command::{Action, Commands, Window};
 use crate::editor::state::State;
 use crate::editor::widgets::pick_list::PickList;
+use crate::planet::Planet;
 use eframe::egui::{self, Align2, TextStyle};
+use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Width of the window and height of a row, in points.
-const WIDTH: f32 = 260.0;
+const WIDTH: f32 = 350.0;
 const ROW_HEIGHT: f32 = 22.0;
 /// Most rows in view.
 const MOST_ROWS: f32 = 16.0;
@@ -26,6 +30,8 @@ pub struct HistoryWindow {
     list: PickList,
     /// Steps done and all steps when the cursor was put on the current one; None while the window is closed.
     seen: Option<(usize, usize)>,
+    /// The planet for which `values` were found, and the values before and after each step in view.
+    values: (Option<Arc<Planet>>, HashMap<usize, Option<String>>),
 }
 
 impl HistoryWindow {
@@ -42,10 +48,21 @@ impl HistoryWindow {
         if self.seen != Some((done, count)) {
             self.list.set_cursor(done);
             self.seen = Some((done, count));
+            self.values = Default::default();
         }
+        let planet = state.document.planet();
+        if self.values.0.as_ref().is_none_or(|of| !Arc::ptr_eq(of, planet)) {
+            self.values = (Some(planet.clone()), HashMap::new());
+        }
+        let known = &mut self.values.1;
+        let mut values_of = |row: usize| {
+            let step = row.checked_sub(1)?;
+            let find = || history.sides(step, planet).and_then(|(before, after)| differences::values(before, after));
+            known.entry(step).or_insert_with(find).clone()
+        };
         let mut open = true;
         let window =
-            egui::Window::new("History").id(id()).open(&mut open).default_pos([12.0, 40.0]).default_width(WIDTH);
+            egui::Window::new("History").id(id()).open(&mut open).default_pos(look::WINDOW_POS).default_width(WIDTH);
         window.resizable(false).collapsible(false).show(ctx, |ui| {
             ui.set_width(ui.available_width());
             let rows = MOST_ROWS.min(((ctx.content_rect().height() - 160.0) / ROW_HEIGHT).floor()).max(3.0);
@@ -65,8 +82,9 @@ impl HistoryWindow {
             let labels: Vec<&str> = std::iter::once("Before all changes").chain(history.labels()).collect();
             let clicked = self.list.show(ui, (count, ROW_HEIGHT, rows * ROW_HEIGHT), |ui, row, rect, response| {
                 let label = labels.get(row).copied().unwrap_or_default();
+                let values = values_of(row).unwrap_or_default();
                 response.widget_info(|| {
-                    let name = format!("Step {row}: {label}");
+                    let name = format!("Step {row}: {label} {values}").trim_end().to_owned();
                     egui::WidgetInfo::selected(egui::Role::ListBoxOption, true, row == done, name)
                 });
                 let visuals = ui.visuals();
@@ -81,6 +99,11 @@ impl HistoryWindow {
                     let dot = rect.left_center() + egui::vec2(10.0, 0.0);
                     painter.circle_filled(dot, 3.0, visuals.hyperlink_color);
                 }
+                let right = rect.right_center() - egui::vec2(6.0, 0.0);
+                let small = TextStyle::Small.resolve(ui.style());
+                let taken = painter.text(right, Align2::RIGHT_CENTER, values, small, visuals.weak_text_color());
+                let rest = rect.with_max_x(taken.left() - 6.0);
+                let painter = painter.with_clip_rect(rest.intersect(ui.clip_rect()));
                 painter.text(rect.left_center() + egui::vec2(22.0, 0.0), Align2::LEFT_CENTER, label, font, color);
             });
             if clicked.is_some() {

@@ -1,5 +1,6 @@
 //! The inspector: all that is known of the place under the pointer, or of a place that is held while one edits.
 
+use super::look;
 use super::status::location_text;
 use crate::editor::command::{Action, Command, Commands, Window};
 use crate::editor::commands;
@@ -30,7 +31,7 @@ fn id() -> egui::Id {
 pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
     let mut open = state.shows.inspector;
     let window = egui::Window::new("Inspector").id(id()).open(&mut open).resizable(false);
-    window.default_pos([12.0, 40.0]).show(ctx, |ui| {
+    window.default_pos(look::WINDOW_POS).show(ctx, |ui| {
         ui.set_width(WIDTH);
         let inspector = &state.viewport.inspector;
         let keys = |command| {

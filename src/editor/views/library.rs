@@ -1,6 +1,7 @@
 //! The library window: planets and parts with small pictures. A click opens a planet or takes a part; either can be
 //! dragged onto the planet, which takes it as an undo step.
 
+use super::look;
 use crate::editor::command::{Action, Commands, LibraryAction, Window};
 use crate::editor::files::library::{PARTS, read_tags};
 use crate::editor::state::State;
@@ -12,6 +13,8 @@ use eframe::egui;
 
 /// Width and height of a picture, points.
 const SIDE: f32 = 104.0;
+/// Size of the text of a name, points.
+const NAME_SIZE: f32 = 11.5;
 /// Words that narrow the list down with a click.
 const TAGS: [&str; 7] = ["library", "recent", "shipped", "part", "sea", "rivers", "airless"];
 
@@ -51,7 +54,7 @@ impl LibraryWindow {
             return;
         }
         let mut open = true;
-        let window = egui::Window::new("Library").id(id()).open(&mut open).default_pos([12.0, 40.0]);
+        let window = egui::Window::new("Library").id(id()).open(&mut open).default_pos(look::WINDOW_POS);
         let shown = window.default_size([470.0, 520.0]).min_size([260.0, 200.0]).show(ctx, |ui| {
             self.head(ui, state, commands);
             ui.separator();
@@ -182,7 +185,10 @@ fn cell(ui: &mut egui::Ui, state: &State, index: usize, commands: &mut Commands)
                 ui.close();
             }
         });
-        ui.add(egui::Label::new(&item.name).truncate().selectable(false));
+        let font = egui::FontId { size: NAME_SIZE, ..egui::TextStyle::Body.resolve(ui.style()) };
+        let mut name = egui::text::LayoutJob::simple(item.name.clone(), font, ui.visuals().text_color(), SIDE);
+        name.wrap.max_rows = 2;
+        ui.add(egui::Label::new(name).selectable(false));
     });
     names
 }

@@ -2,6 +2,8 @@
 
 use eframe::egui;
 
+/// Where a window of the editor opens: below the menus and the chips over the picture, in points.
+pub const WINDOW_POS: egui::Pos2 = egui::pos2(12.0, 70.0);
 /// Size of the smallest text, in points.
 const SMALLEST_TEXT: f32 = 11.0;
 

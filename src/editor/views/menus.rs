@@ -28,7 +28,11 @@ pub fn show(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
                     if i > 0 {
                         ui.separator();
                     }
-                    group.iter().for_each(|row| entry(ui, state, commands, row));
+                    if menu == Menu::View && i == 0 {
+                        debug_views(ui, state, commands, group);
+                    } else {
+                        group.iter().for_each(|row| entry(ui, state, commands, row));
+                    }
                     if i == 0 && menu == Menu::File {
                         recent(ui, state, commands);
                     }
@@ -63,6 +67,14 @@ fn entry(ui: &mut egui::Ui, state: &State, commands: &mut Commands, row: &Row) {
         commands.send(row.command);
         ui.close();
     }
+}
+
+/// The debug views in a menu of their own: there are too many for one.
+fn debug_views(ui: &mut egui::Ui, state: &State, commands: &mut Commands, rows: &[&Row]) {
+    let now = state.viewport.settings.debug_view.label().to_lowercase();
+    ui.menu_button(format!("Show: {now}"), |ui| rows.iter().for_each(|row| entry(ui, state, commands, row)))
+        .response
+        .on_hover_text("The planet as it looks, or one of its quantities in colours");
 }
 
 fn planets(ui: &mut egui::Ui, commands: &mut Commands) {

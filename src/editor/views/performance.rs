@@ -1,5 +1,6 @@
 //! The performance window: the times of the last edit, the memory of the cache, and the newest frames.
 
+use super::look;
 use crate::editor::command::{Action, Commands, Window};
 use crate::editor::state::State;
 use crate::editor::viewport::frames::FrameTime;
@@ -29,7 +30,7 @@ fn id() -> egui::Id {
 pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
     let mut open = state.shows.performance;
     let window = egui::Window::new("Performance").id(id()).open(&mut open);
-    window.resizable(false).default_pos([12.0, 40.0]).show(ctx, |ui| {
+    window.resizable(false).default_pos(look::WINDOW_POS).show(ctx, |ui| {
         match state.viewport.edit_clock.timeline() {
             Some(timeline) => last_edit(ui, timeline),
             None => {

@@ -1,5 +1,6 @@
 //! The window of photographs and films: size, samples, lens, and how much is done.
 
+use super::look;
 use crate::editor::command::{Action, Commands, Shoot, Window};
 use crate::editor::state::State;
 use crate::editor::state::shooting::{PhotoSettings, Shooting, Subject};
@@ -33,7 +34,7 @@ fn id() -> egui::Id {
 pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
     let mut open = state.shows.photo;
     let window = egui::Window::new("Picture").id(id()).open(&mut open);
-    window.resizable(false).default_pos([12.0, 40.0]).show(ctx, |ui| {
+    window.resizable(false).default_pos(look::WINDOW_POS).show(ctx, |ui| {
         let mut photo = state.photo;
         egui::Grid::new("photo").num_columns(2).spacing([12.0, 6.0]).show(ui, |ui| settings(ui, &mut photo));
         if photo != state.photo {

@@ -51,16 +51,18 @@ fn notices(state: &State) -> Vec<String> {
     shared.into_iter().chain(unkept).chain(state.open_file.notice.clone()).collect()
 }
 
-/// Shows the last action of the editor.
+/// Shows the last action of the editor, between the scale and the right edge of the picture.
 pub fn show_said(ctx: &egui::Context, state: &State) {
     let Some((text, left)) = state.notices.said() else { return };
+    let picture = state.viewport.rect();
     egui::Area::new(egui::Id::unique("said"))
-        .anchor(egui::Align2::LEFT_BOTTOM, [12.0, -40.0])
+        .pivot(egui::Align2::CENTER_BOTTOM)
+        .fixed_pos(picture.center_bottom() - egui::vec2(0.0, 12.0))
         .order(egui::Order::Foreground)
         .interactable(false)
         .show(ctx, |ui| {
             egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.set_max_width(0.6 * ctx.content_rect().width());
+                ui.set_max_width(0.6 * picture.width());
                 ui.label(text);
             });
         });

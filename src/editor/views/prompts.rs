@@ -69,25 +69,26 @@ impl Prompts {
     }
 }
 
-/// A question with a button for each answer; closing it answers `cancel`.
-fn question<A: Copy>(
+/// A question with a button for each answer; closing it answers `cancel`, Enter answers `enter`.
+fn question<A: Copy + PartialEq>(
     ctx: &egui::Context,
     id: &'static str,
     (heading, lines): (&str, &[String]),
     answers: &[(&str, A)],
-    cancel: A,
+    (enter, cancel): (A, A),
 ) -> Option<A> {
-    question_about(ctx, id, heading, |ui| lines.iter().for_each(|line| drop(ui.label(line))), answers, cancel)
+    let content = |ui: &mut egui::Ui| lines.iter().for_each(|line| drop(ui.label(line)));
+    question_about(ctx, id, heading, content, answers, (enter, cancel))
 }
 
 /// A question over any content.
-fn question_about<A: Copy>(
+fn question_about<A: Copy + PartialEq>(
     ctx: &egui::Context,
     id: &'static str,
     heading: &str,
     content: impl FnOnce(&mut egui::Ui),
     answers: &[(&str, A)],
-    cancel: A,
+    (enter, cancel): (A, A),
 ) -> Option<A> {
     let modal = egui::Modal::new(egui::Id::unique(id)).show(ctx, |ui| {
         ui.set_width(400.0);
@@ -96,13 +97,26 @@ fn question_about<A: Copy>(
         content(ui);
         ui.add_space(12.0);
         ui.horizontal(|ui| {
-            let clicked = |(text, meaning): &(&str, A)| ui.button(*text).clicked().then_some(*meaning);
+            let clicked = |(text, meaning): &(&str, A)| {
+                let button = ui.button(*text);
+                if *meaning == enter {
+                    take_enter(&button);
+                }
+                button.clicked().then_some(*meaning)
+            };
             // The fold shows all buttons, also those after the clicked one.
             answers.iter().map(clicked).fold(None, Option::or)
         })
         .inner
     });
     if modal.inner.is_none() && modal.should_close() { Some(cancel) } else { modal.inner }
+}
+
+/// Gives the button of a question the focus, so that Enter presses it, while nothing of the question has it.
+fn take_enter(button: &egui::Response) {
+    if button.ctx.memory(|memory| memory.focused().is_none()) {
+        button.request_focus();
+    }
 }
 
 fn unsaved(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<UnsavedAnswer> {
@@ -119,7 +133,8 @@ fn unsaved(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<UnsavedAns
     let rest = [("Discard changes", UnsavedAnswer::Discard), ("Cancel", UnsavedAnswer::Cancel)];
     let answers: Vec<_> = dirty.then_some(save).into_iter().chain(rest).collect();
     let heading = if dirty { "Save your changes?" } else { "Lose your changes?" };
-    question(ctx, "unsaved work", (heading, &lines), &answers, UnsavedAnswer::Cancel)
+    let enter = if dirty { UnsavedAnswer::Save } else { UnsavedAnswer::Cancel };
+    question(ctx, "unsaved work", (heading, &lines), &answers, (enter, UnsavedAnswer::Cancel))
 }
 
 fn unsaved_system(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<UnsavedAnswer> {
@@ -130,7 +145,8 @@ fn unsaved_system(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<Uns
         ("Discard changes", UnsavedAnswer::Discard),
         ("Cancel", UnsavedAnswer::Cancel),
     ];
-    question(ctx, "unsaved system", ("Save your changes?", &lines), &answers, UnsavedAnswer::Cancel)
+    let enter_cancel = (UnsavedAnswer::Save, UnsavedAnswer::Cancel);
+    question(ctx, "unsaved system", ("Save your changes?", &lines), &answers, enter_cancel)
 }
 
 /// What follows the answer.
@@ -155,7 +171,8 @@ fn replaced(ctx: &egui::Context, path: &Path) -> Option<ReplaceAnswer> {
         ("Other name…", ReplaceAnswer::OtherName),
         ("Cancel", ReplaceAnswer::Cancel),
     ];
-    question(ctx, "replace file", ("Replace the file?", &lines), &answers, ReplaceAnswer::Cancel)
+    let enter_cancel = (ReplaceAnswer::Cancel, ReplaceAnswer::Cancel);
+    question(ctx, "replace file", ("Replace the file?", &lines), &answers, enter_cancel)
 }
 
 fn changed(ctx: &egui::Context, document: &Document, change: &Change) -> Option<ChangeAnswer> {
@@ -181,7 +198,8 @@ fn changed(ctx: &egui::Context, document: &Document, change: &Change) -> Option<
         }
     };
     let heading = "The file has changed on disk";
-    question_about(ctx, "changed on disk", heading, content, &answers, ChangeAnswer::Cancel)
+    let enter_cancel = (ChangeAnswer::Cancel, ChangeAnswer::Cancel);
+    question_about(ctx, "changed on disk", heading, content, &answers, enter_cancel)
 }
 
 /// A list that is folded at first.
@@ -214,7 +232,9 @@ fn recover(ctx: &egui::Context, name: &str) -> Option<RecoverAnswer> {
         ui.add_space(12.0);
         ui.horizontal(|ui| {
             let later = "It is offered again at the next start";
-            if ui.button("Recover").clicked() {
+            let recover = ui.button("Recover");
+            take_enter(&recover);
+            if recover.clicked() {
                 Some(RecoverAnswer::Recover)
             } else if ui.button("Not now").on_hover_text(later).clicked() {
                 Some(RecoverAnswer::Later)
@@ -244,7 +264,9 @@ fn dismissed(ctx: &egui::Context, message: &Message) -> bool {
             if ui.button("Copy").clicked() {
                 ctx.copy_text(message.lines.join("\n"));
             }
-            ui.button("Dismiss").clicked()
+            let dismiss = ui.button("Dismiss");
+            take_enter(&dismiss);
+            dismiss.clicked()
         })
         .inner
     });

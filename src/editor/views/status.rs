@@ -13,7 +13,7 @@ pub fn show(ui: &mut egui::Ui, state: &State) {
         ui.spacing_mut().item_spacing.x = 12.0;
         let (altitude_m, location) = viewport.eye(state.document.valid_planet());
         let left = match viewport.under_pointer() {
-            Some(under) => ground_text(under),
+            Some(under) => ground_text(under, state.document.valid_planet().atmosphere.is_some()),
             None => format!("Over {}", location_text(location)),
         };
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -29,21 +29,21 @@ pub fn show(ui: &mut egui::Ui, state: &State) {
     });
 }
 
-/// What is known of a place. Of ground under water the biome says nothing.
-fn ground_text(under: &KnownPlace) -> String {
+/// What is known of a place. Of ground under water the biome says nothing, and without air nothing is moist.
+fn ground_text(under: &KnownPlace, has_air: bool) -> String {
     let (place, sample) = (location_text(under.location), &under.sample);
     if let Some(depth_m) =
         sample.water_level_m.map(|level_m| level_m - sample.height_m).filter(|depth_m| *depth_m > 0.0)
     {
         return format!("{place}   {} under water   {:.1} °C", length_text(depth_m), sample.temperature_c);
     }
+    let moisture = if has_air { format!("   moisture {:.2}", sample.moisture) } else { String::new() };
     format!(
-        "{place}   {}   {:.0}° steep   {}   {:.1} °C   moisture {:.2}",
+        "{place}   {}   {:.0}° steep   {}   {:.1} °C{moisture}",
         length_text(sample.height_m),
         sample.slope_rad.to_degrees(),
         under.biome,
         sample.temperature_c,
-        sample.moisture
     )
 }
 

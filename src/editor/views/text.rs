@@ -1,5 +1,6 @@
 //! The window of the preset's text: the planet as its file says it. What is wrong is underlined where it is.
 
+use super::look;
 use crate::editor::command::{Action, ClipAction, Commands, Window};
 use crate::editor::state::State;
 use crate::planet::{LoadError, Planet, Problem};
@@ -42,7 +43,7 @@ impl TextWindow {
         let mut open = true;
         let room = ctx.content_rect().size();
         let window = egui::Window::new("Preset text").id(id()).open(&mut open).collapsible(false);
-        let window = window.default_pos([12.0, 40.0]).default_size([480.0, (room.y - 160.0).min(600.0)]);
+        let window = window.default_pos(look::WINDOW_POS).default_size([480.0, (room.y - 160.0).min(600.0)]);
         window.max_height(room.y - 80.0).show(ctx, |ui| self.content(ui, commands));
         if !open {
             commands.push(Action::Close(Window::Text));

@@ -1,5 +1,6 @@
 //! The window of the variations: nine small pictures. A click takes one, and the next nine are around it.
 
+use super::look;
 use crate::editor::command::{Action, Commands, VariationAction, Window};
 use crate::editor::panels::PANELS;
 use crate::editor::state::State;
@@ -28,7 +29,7 @@ fn id() -> egui::Id {
 pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
     let mut open = state.shows.variations;
     let window = egui::Window::new("Variations").id(id()).open(&mut open).resizable(false).collapsible(false);
-    window.default_pos([12.0, 40.0]).show(ctx, |ui| {
+    window.default_pos(look::WINDOW_POS).show(ctx, |ui| {
         let room = (ctx.content_rect().height() - BESIDES) / (COUNT / COLUMNS) as f32;
         let side = room.clamp(LEAST, MOST);
         ui.set_max_width(side * COLUMNS as f32 + 8.0);

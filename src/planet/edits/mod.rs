@@ -15,8 +15,8 @@ pub use list::GroundEdits;
 pub(crate) use list::Shared;
 pub use points::{EditPoint, EditPoints};
 pub use tools::{
-    BiomePaint, Canyon, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode, Raise, Ridge, Road,
-    Roughen, Smooth, TemperaturePaint, Terrace, Tool, Volcano, Wall,
+    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode, Raise,
+    Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Tool, Volcano, Wall,
 };
 
 use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, count, linear, log, params};
@@ -68,6 +68,19 @@ params! {
         /// Points that it goes through or stands at: (latitude, longitude), or (latitude, longitude, height in metres)
         /// for a road.
         points: EditPoints = EditPoints::default();
+    }
+}
+
+impl GroundEdit {
+    /// A new edit with this tool. The outlines of land are ragged.
+    pub fn of(tool: Tool) -> Self {
+        let raggedness = match tool {
+            Tool::Island(_) => 0.5,
+            Tool::Mesa(_) => 0.3,
+            Tool::Volcano(_) => 0.15,
+            _ => 0.0,
+        };
+        Self { tool, raggedness, ..Self::default() }
     }
 }
 

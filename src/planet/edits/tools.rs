@@ -44,6 +44,8 @@ kinds! {
     Temperature(TemperaturePaint) = "Temperature",
     /// Paints a biome: the climate that it has in the biome table.
     Biome(BiomePaint) = "Biome",
+    /// Paints where clouds gather and where the sky clears. Clouds drift through the painted places.
+    Clouds(CloudPaint) = "Clouds",
 }
 
 impl Tool {
@@ -60,9 +62,9 @@ impl Tool {
         )
     }
 
-    /// Whether the tool paints the climate, and leaves the ground as it is.
+    /// Whether the tool paints the climate or the clouds, and leaves the ground as it is.
     pub fn is_paint(&self) -> bool {
-        matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_))
+        matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_))
     }
 }
 
@@ -262,5 +264,13 @@ params! {
         biome: char = UNSET_KEY, "Biome", Unit::None, Domain::BiomeKey, Stage::Climate;
         /// Share of the way to its climate.
         strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Climate;
+    }
+}
+
+params! {
+    /// `log-odds of the cover + 10 * amount * w`, for each layer of clouds that the planet has
+    pub struct CloudPaint {
+        /// How much cloudier it becomes: 1 is overcast, -1 is clear sky.
+        amount: f64 = 0.5, "Amount", Unit::None, linear(-1.0, 1.0), Stage::CloudMap;
     }
 }

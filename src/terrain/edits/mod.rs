@@ -4,7 +4,7 @@
 //! - `tool`: what each tool does to a height, with derivatives and bounds
 //! - `widening`: what edits do to the bounds of heights
 //! - `smooth`: ground without fine detail, around a point
-//! - `paint`: painted climate
+//! - `paint`: painted climate and clouds
 //! - `outline`: noise for ragged outlines and rough ground
 //! - `compiled`: one edit: its tool, its line, the pieces of that line
 //! - `roster`: the edits that are on, in order, from one revision to the next
@@ -39,7 +39,7 @@ use index::{Index, Piece, Walk};
 use near::Arcs;
 pub(crate) use near::Near;
 pub(crate) use paint::Painted;
-use paint::Places;
+use paint::{Paint, Places};
 use roster::{Roster, slot_of};
 pub(crate) use smooth::Nodes;
 use std::fmt;
@@ -57,6 +57,8 @@ pub(crate) struct Edits {
     /// Those that paint the climate, and the climates of the biomes that they paint.
     climate: Index,
     places: Places,
+    /// Those that paint clouds.
+    clouds: Index,
     key: Key,
     /// Whether an edit smooths.
     smooths: bool,
@@ -71,7 +73,7 @@ pub(crate) struct Ground<'a> {
 
 impl fmt::Debug for Edits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Edits").field(&self.key).field(&self.paint_key()).finish()
+        f.debug_tuple("Edits").field(&self.key).field(&self.paint_key()).field(&self.cloud_key()).finish()
     }
 }
 
@@ -116,6 +118,7 @@ impl Edits {
             roster: Roster::default(),
             ground,
             climate: Index::default(),
+            clouds: Index::default(),
             places: Places::default(),
             key,
             smooths: false,
@@ -129,7 +132,8 @@ impl Edits {
         let (mut roster, changes) = self.roster.next(&planet.edits, compile);
         let is_ground = |edit: &CompiledEdit| edit.paint().is_none();
         let mut ground = self.ground.next(&roster, &changes, is_ground);
-        let climate = self.climate.next(&roster, &changes, |edit| edit.paint().is_some());
+        let climate = self.climate.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_climate));
+        let clouds = self.clouds.next(&roster, &changes, |edit| edit.paint().is_some_and(|paint| !paint.is_climate()));
         // What smooths the ground depends on the edits before it.
         let later = context::refresh(&mut roster, &ground, &changes);
         if !later.is_empty() {
@@ -137,7 +141,7 @@ impl Edits {
         }
         let places = self.places.next(planet, painted_biomes(planet, &climate));
         let smooths = roster.smoothing().next().is_some();
-        Self { roster, key: ground.key_of_all(), ground, climate, places, smooths }
+        Self { roster, key: ground.key_of_all(), ground, climate, places, clouds, smooths }
     }
 
     /// The same edits on a planet whose biome table may be another.
@@ -146,9 +150,9 @@ impl Edits {
         if places == self.places {
             return self.clone();
         }
-        let Self { roster, ground, climate, key, smooths, .. } = &**self;
-        let (roster, ground, climate) = (roster.clone(), ground.clone(), climate.clone());
-        Arc::new(Self { roster, ground, climate, key: *key, places, smooths: *smooths })
+        let Self { roster, ground, climate, clouds, key, smooths, .. } = &**self;
+        let [ground, climate, clouds] = [ground, climate, clouds].map(Clone::clone);
+        Arc::new(Self { roster: roster.clone(), ground, climate, places, clouds, key: *key, smooths: *smooths })
     }
 
     /// The key of all edits of the ground.
@@ -156,7 +160,12 @@ impl Edits {
         self.key
     }
 
-    /// The key of all paint. None if there is none.
+    /// The key of all paint of clouds. None if there is none.
+    pub(crate) fn cloud_key(&self) -> Option<Key> {
+        (!self.clouds.is_empty()).then(|| self.clouds.key_of_all())
+    }
+
+    /// The key of all paint of the climate. None if there is none.
     pub(crate) fn paint_key(&self) -> Option<Key> {
         (!self.climate.is_empty()).then(|| Key::of(&(self.climate.key_of_all(), &self.places.places)))
     }
@@ -228,7 +237,7 @@ impl Edits {
         smoothing.collect()
     }
 
-    /// The paint at points; nothing if there is none at any.
+    /// The paint of the climate at points; nothing if there is none at any.
     pub(crate) fn painted(&self, dirs: &[DVec3], near: &mut Near, painted: &mut Vec<Painted>) {
         painted.clear();
         if self.climate.is_empty() {
@@ -248,7 +257,22 @@ impl Edits {
         });
     }
 
-    /// Whether paint may be at one of these points.
+    /// By how much paint changes the log-odds of the cover of clouds at points: calls `each` with the number of a point
+    /// and the change.
+    pub(crate) fn clouded(&self, dirs: &[DVec3], near: &mut Near, mut each: impl FnMut(usize, f64)) {
+        near.each_leaf(Walk::new(&self.clouds), &self.roster, dirs, |points, near| {
+            for i in points.iter().map(|point| *point as usize) {
+                for (slot, arcs) in near.groups() {
+                    let Some(edit) = self.roster.edit(slot) else { continue };
+                    if let Some(Paint::Clouds { odds }) = edit.paint() {
+                        each(i, odds * edit.weight(dirs[i], &arcs));
+                    }
+                }
+            }
+        });
+    }
+
+    /// Whether paint of the climate may be at one of these points.
     pub(crate) fn may_paint(&self, dirs: &[DVec3]) -> bool {
         let mut walk = Walk::new(&self.climate);
         !self.climate.is_empty() && dirs.iter().any(|dir| !walk.leaf(*dir).is_empty())

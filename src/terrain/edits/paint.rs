@@ -1,5 +1,5 @@
 //! Painted climate: strokes that change moisture and temperature, and those that paint a biome by the climate that it
-//! has in the biome table.
+//! has in the biome table. Painted clouds: strokes that change the log-odds of their cover.
 
 use crate::planet::{Biomes, Planet, Table, TableRows};
 
@@ -65,13 +65,31 @@ pub(super) type BiomePlace = (f64, Option<f64>);
 /// What a stroke paints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Paint {
-    Moisture { value: f64, sets: bool },
-    Temperature { value_c: f64, sets: bool },
-    Biome { key: char, strength: f64 },
+    Moisture {
+        value: f64,
+        sets: bool,
+    },
+    Temperature {
+        value_c: f64,
+        sets: bool,
+    },
+    Biome {
+        key: char,
+        strength: f64,
+    },
+    /// Change of the log-odds of the cover.
+    Clouds {
+        odds: f64,
+    },
 }
 
 impl Paint {
-    /// Paints with a weight.
+    /// Whether it changes the climate of the ground.
+    pub(super) fn is_climate(&self) -> bool {
+        !matches!(self, Self::Clouds { .. })
+    }
+
+    /// Paints the climate with a weight.
     pub(super) fn apply(&self, painted: &mut Painted, weight: f64, place_of: impl Fn(char) -> Option<BiomePlace>) {
         let paint = |tint: &mut Tint, value: f64, sets: bool| match sets {
             true => tint.set(value, weight),
@@ -87,6 +105,7 @@ impl Paint {
                     painted.temperature.set(temperature_c, weight * strength);
                 }
             }
+            Self::Clouds { .. } => {}
         }
     }
 }

@@ -6,8 +6,8 @@ use super::outline;
 use super::paint::Paint;
 use super::widening::Widening;
 use crate::planet::edits::{
-    BiomePaint, Canyon, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode, Raise, Ridge, Road,
-    Roughen, Smooth, TemperaturePaint, Terrace, Volcano, Wall,
+    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode, Raise,
+    Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Volcano, Wall,
 };
 use crate::planet::{GroundEdit, Tool};
 
@@ -21,6 +21,9 @@ const PEAK: f64 = 0.3;
 const SHORE: f64 = 0.75;
 /// Share of an island's height over which its foot blends into the sea floor.
 const FOOT: f64 = 0.05;
+
+/// Log-odds by which a full stroke changes the cover of clouds: all but overcast from a sky that is all but clear.
+const CLOUD_ODDS: f64 = 10.0;
 
 /// A point under an edit.
 #[derive(Clone, Copy, Debug)]
@@ -176,6 +179,7 @@ impl CompiledTool {
                 Self::Paint(Paint::Temperature { value_c: temperature_c, sets: mode == PaintMode::Set })
             }
             Tool::Biome(BiomePaint { biome, strength }) => Self::Paint(Paint::Biome { key: biome, strength }),
+            Tool::Clouds(CloudPaint { amount }) => Self::Paint(Paint::Clouds { odds: CLOUD_ODDS * amount }),
         }
     }
 
@@ -204,6 +208,7 @@ impl CompiledTool {
             Self::Paint(Paint::Moisture { value, sets }) => (20, [value, f64::from(u8::from(sets)), 0.0, 0.0]),
             Self::Paint(Paint::Temperature { value_c, sets }) => (21, [value_c, f64::from(u8::from(sets)), 0.0, 0.0]),
             Self::Paint(Paint::Biome { key, strength }) => (22, [strength, f64::from(u32::from(key)), 0.0, 0.0]),
+            Self::Paint(Paint::Clouds { odds }) => (23, [odds, 0.0, 0.0, 0.0]),
         };
         hash.add(kind);
         numbers.into_iter().for_each(|number| hash.add_f64(number));

@@ -12,6 +12,7 @@ use crate::editor::command::{Action, BakeAction, Commands, Window};
 use crate::editor::state::State;
 use crate::editor::state::bake_settings::{BakeSettings, Form, Product};
 use crate::editor::state::baking::Baking;
+use crate::editor::views::look;
 use crate::editor::widgets::number::length_text;
 use crate::planet::Planet;
 use eframe::egui;
@@ -42,7 +43,7 @@ impl BakeWindow {
             return;
         }
         let mut open = true;
-        let window = egui::Window::new("Bake").id(id()).open(&mut open).default_pos([12.0, 40.0]);
+        let window = egui::Window::new("Bake").id(id()).open(&mut open).default_pos(look::WINDOW_POS);
         let most = (ctx.content_rect().height() - 110.0).max(200.0);
         window.resizable([true, false]).default_width(350.0).show(ctx, |ui| {
             let (mut settings, planet) = (state.bake.clone(), state.document.valid_planet());

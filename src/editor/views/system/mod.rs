@@ -14,6 +14,7 @@ use crate::editor::state::State;
 use crate::editor::state::system::OpenSystem;
 use crate::editor::state::system::presets::of_document;
 use crate::editor::viewport::travel::Arrival;
+use crate::editor::views::look;
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::menu_button;
 use crate::system::kepler::Ellipse;
@@ -85,7 +86,8 @@ impl SystemWindow {
             return;
         }
         let mut open = true;
-        let window = egui::Window::new("System").id(id()).open(&mut open).default_pos([12.0, 40.0]).resizable(false);
+        let window =
+            egui::Window::new("System").id(id()).open(&mut open).default_pos(look::WINDOW_POS).resizable(false);
         window.show(ctx, |ui| {
             ui.set_width(WIDTH.min(ctx.content_rect().width() - 40.0));
             choices(ui, state, commands);
