@@ -10,6 +10,7 @@ use super::files::dialogs::{FileDialogs, NativeDialogs};
 use super::files::library::Library;
 use super::files::recent::Recent;
 use super::handlers::{self, answers, baking, open_file, opening, shooting};
+use super::late_keys::LateKeys;
 use super::painter::survey::{Survey, same_survey};
 use super::panels::PanelState;
 use super::panels::docks::Bench;
@@ -77,6 +78,7 @@ pub struct EditorApp {
     maps: Option<Arc<MapStore>>,
     /// Whether a field had the focus at the end of the last frame.
     was_typing: bool,
+    late_keys: LateKeys,
     title: String,
 }
 
@@ -129,6 +131,7 @@ impl EditorApp {
             curve_inputs: Surveyor::new(curve_view::inputs_of, same_heights, waker()),
             maps,
             was_typing: false,
+            late_keys: LateKeys::default(),
             title: String::new(),
         }
     }
@@ -373,6 +376,12 @@ impl EditorApp {
 }
 
 impl eframe::App for EditorApp {
+    fn raw_input_hook(&mut self, ctx: &egui::Context, raw_input: &mut egui::RawInput) {
+        if self.late_keys.admit(&mut raw_input.events) {
+            ctx.request_repaint();
+        }
+    }
+
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         profiling::finish_frame!();
         let state = &mut self.state;

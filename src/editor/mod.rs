@@ -3,6 +3,7 @@
 //! Views read the state and send commands; handlers change the state.
 //!
 //! - [`app`]: the eframe application: the order of a frame
+//! - [`late_keys`]: keys that wait for the field that a click opens
 //! - [`command`]: the messages from views to handlers; [`commands`]: the table of commands; [`apply`]: carries them out
 //! - [`state`]: the document, its undo steps, questions, notices, the working copy
 //! - [`handlers`]: the effects of the commands
@@ -20,6 +21,7 @@ pub mod commands;
 pub mod files;
 pub mod finder;
 pub mod handlers;
+pub mod late_keys;
 pub mod painter;
 pub mod panels;
 pub mod state;

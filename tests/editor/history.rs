@@ -24,20 +24,25 @@ fn edited() -> (Editor, Vec<Planet>) {
 fn the_steps_are_listed_and_a_click_goes_to_one() {
     let (mut harness, planets) = edited();
     send(&mut harness, Command::History);
-    let names =
-        ["Step 0: Before all changes", "Step 1: Change radius", "Step 2: Change radius", "Step 3: Change settlements"];
+    let radius = |planet: usize| format!("{} km", planets[planet].radius_km);
+    let names = [
+        "Step 0: Before all changes".to_owned(),
+        format!("Step 1: Change radius {} to {}", radius(0), radius(1)),
+        format!("Step 2: Change radius {} to {}", radius(1), radius(2)),
+        "Step 3: Change settlements 0 to 1".to_owned(),
+    ];
     assert_eq!(steps(&harness), names);
     assert_eq!(chosen(&harness), names[3]);
     harness.check_accessibility();
     for step in [1, 3, 0, 2] {
-        click(&mut harness, names[step]);
+        click(&mut harness, &names[step]);
         assert_eq!(planet(&harness), planets[step], "step {step}");
         assert_eq!(chosen(&harness), names[step]);
         assert_eq!(steps(&harness), names, "a jump forgets nothing");
     }
     slide(&mut harness, "Radius of planet", 3000.0);
     assert_eq!(steps(&harness).len(), 4, "an edit takes the place of what was undone");
-    assert_eq!(chosen(&harness), "Step 3: Change radius");
+    assert_eq!(chosen(&harness), format!("Step 3: Change radius {} to 3000 km", radius(2)));
 }
 
 #[test]

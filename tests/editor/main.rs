@@ -167,7 +167,7 @@ fn layers_are_added_edited_and_masked() {
     click(&mut harness, "Add layer");
     click(&mut harness, "Ridges");
     assert_eq!(planet(&harness).layers.len(), count + 1);
-    assert_eq!(undo_label(&harness), "Add layer");
+    assert_eq!(undo_label(&harness), "Add layer: ridges");
     click(&mut harness, "Duplicate layer");
     let names: Vec<String> = planet(&harness).layers.iter().map(|layer| layer.name.clone()).collect();
     let selected = names.iter().position(|name| name.ends_with(" 2")).unwrap();

@@ -378,3 +378,26 @@ fn a_key_ends_a_flight_at_its_goal() {
     until(&mut harness, "the question", |harness| harness.query_by_label_contains("Discard").is_some());
     assert!(!harness.state().viewport().is_travelling());
 }
+
+/// Changes that were discarded for a flight are not asked for again when it arrives.
+#[test]
+fn changes_that_are_discarded_for_a_flight_are_asked_for_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = app::open_file_with_picture([640.0, 480.0], &pair(folder.path()), 5.0);
+    app::wait_for_picture(&mut harness);
+    let mut changed = planet(&harness);
+    changed.seed += 1;
+    harness.state_mut().push(Action::Clip(ClipAction::TakeText(changed.to_text())));
+    harness.run_steps(2);
+    harness.state_mut().push(Action::System(SystemAction::Visit(2, Arrival::Ground)));
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains("Then moon opens").is_some());
+    click(&mut harness, "Discard changes");
+    let lands = |harness: &Editor| {
+        assert!(harness.query_by_label_contains("Discard").is_none(), "asked again");
+        let viewport = harness.state().viewport();
+        !viewport.is_travelling() && viewport.cameras().mode() == Mode::Walk && !viewport.cameras().is_flying_to()
+    };
+    until(&mut harness, "standing on the moon", lands);
+    assert_eq!(planet(&harness).name, "moon.ron");
+}

@@ -111,6 +111,7 @@ fn number_keys_show_debug_views_but_not_while_one_types() {
         assert_eq!(harness.state().viewport().settings.debug_view, view);
     }
     click(&mut harness, "View");
+    click(&mut harness, "Show: shaded");
     harness.get_by_label_contains("Moisture").click();
     harness.run_steps(3);
     assert_eq!(harness.state().viewport().settings.debug_view, DebugView::Moisture);

@@ -52,7 +52,12 @@ pub fn unsaved(state: &mut State, ctx: &egui::Context, answer: UnsavedAnswer) {
             state.questions.after_save = Some(goal);
             system::save(state, ctx);
         }
-        (UnsavedAnswer::Discard, Work::Planet) => opening::pursue_past_planet(state, ctx, goal),
+        (UnsavedAnswer::Discard, Work::Planet) => {
+            // The flight goes on with the planet as it is.
+            let flies = matches!(goal, Goal::Visit(..));
+            state.questions.given_up = flies.then(|| state.document.planet().clone());
+            opening::pursue_past_planet(state, ctx, goal);
+        }
         (UnsavedAnswer::Discard, Work::System) => opening::reach(state, ctx, goal),
         (UnsavedAnswer::Cancel, _) => opening::give_up(state, &goal),
     }

@@ -16,7 +16,7 @@ use crate::planet::picture::folder_of;
 use crate::planet::random::Kind;
 use crate::planet::{LoadError, Planet, locks, shipped};
 use eframe::egui;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Random planets that are tried until one fits what is locked.
 const MOST_ROLLS: u64 = 8;
@@ -191,7 +191,7 @@ pub fn recover(state: &mut State, answer: RecoverAnswer) {
     }
     let planet_file = orphan.planet.as_ref().and_then(|(_, file)| file.clone());
     if let Some((planet, file)) = orphan.planet {
-        state.replace_document(Document::unsaved(planet, file));
+        state.replace_document(recovered(planet, file));
     }
     if let Some((system, file)) = orphan.system {
         let (open, problems) = OpenSystem::recovered(system, file);
@@ -207,6 +207,16 @@ pub fn recover(state: &mut State, answer: RecoverAnswer) {
         state.shows.system = true;
         state.system = Some(open);
     }
+}
+
+/// A document with recovered work: an undo step of its file, if that can be read.
+fn recovered(planet: Planet, file: Option<PathBuf>) -> Document {
+    let Some((path, mut document)) = file.as_ref().and_then(|path| Some((path, read(path).ok()?))) else {
+        return Document::unsaved(planet, file);
+    };
+    document.edit(planet.moved_to(&folder_of(path)), Some("Recovered work".to_owned()));
+    document.settle();
+    document
 }
 
 fn problems(path: &Path, error: &LoadError) -> Vec<String> {

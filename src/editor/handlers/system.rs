@@ -125,7 +125,8 @@ pub fn visit(state: &mut State, body: usize, arrival: Arrival) {
 
 /// The flight to a body has come near it: it becomes the planet, and the planet becomes one of its neighbours.
 pub fn hand_over(state: &mut State, ctx: &egui::Context, (body, arrival): (usize, Arrival)) {
-    if state.loses_work() {
+    let is_given_up = state.questions.given_up.take().is_some_and(|planet| planet == *state.document.planet());
+    if state.loses_work() && !is_given_up {
         // The planet was changed during the flight.
         state.viewport.cancel_travel();
         return opening::pursue(state, ctx, Goal::Visit(body, arrival));

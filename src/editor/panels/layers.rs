@@ -130,7 +130,7 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
                         let after = (count > 0).then_some(last);
                         let seed = random_seed() as u32;
                         state.select(layer_edit::add(draft.planet, kind, after, seed).unwrap_or(last));
-                        draft.name_edit("Add layer");
+                        draft.name_edit(format!("Add layer: {}", name.to_lowercase()));
                         ui.close();
                     }
                 }

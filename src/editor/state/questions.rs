@@ -6,9 +6,11 @@ use super::templates::Template;
 use crate::editor::files::dialogs::{DialogRequest, FileDialogs, Wake};
 use crate::editor::files::disk::TheirFile;
 use crate::editor::viewport::travel::Arrival;
+use crate::planet::Planet;
 use crate::planet::param::ParamPath;
 use eframe::egui;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// An action that would lose unsaved work.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -134,6 +136,8 @@ pub struct Questions {
     pub change: Option<Change>,
     /// The action that follows once the document is saved.
     pub after_save: Option<Goal>,
+    /// The planet whose unsaved changes the user gave up for a flight to another body; the flight ends with it.
+    pub given_up: Option<Arc<Planet>>,
     /// Whether the window closes without another question.
     pub may_close: bool,
 }
@@ -149,6 +153,7 @@ impl Questions {
             replace: None,
             change: None,
             after_save: None,
+            given_up: None,
             may_close: false,
         }
     }
@@ -210,5 +215,6 @@ impl Questions {
     pub fn forget(&mut self) {
         (self.in_dialog, self.path, self.unsaved) = (None, None, None);
         (self.replace, self.change, self.after_save) = (None, None, None);
+        self.given_up = None;
     }
 }

@@ -90,6 +90,11 @@ impl EditClock {
         self.drawn.is_some()
     }
 
+    /// The time since the oldest edit whose picture is not drawn yet.
+    pub fn waiting(&self) -> Option<Duration> {
+        self.pending.front().map(|edit| edit.at.elapsed())
+    }
+
     /// The newest measurement.
     pub fn last(&self) -> Option<Duration> {
         self.last.as_ref().map(|timeline| timeline.total)

@@ -225,6 +225,11 @@ impl Viewport {
         self.builder.is_busy() || self.picture.is_behind(self.builder.surface().as_ref())
     }
 
+    /// The time for which an edit has waited for its picture.
+    pub fn waiting(&self) -> Option<std::time::Duration> {
+        self.edit_clock.waiting()
+    }
+
     /// Where solved world maps are kept.
     pub fn map_store(&self) -> Option<Arc<MapStore>> {
         self.maps.clone()

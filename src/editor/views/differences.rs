@@ -32,11 +32,11 @@ pub(super) fn lines(mine: &Planet, theirs: &Planet) -> Vec<String> {
     lines
 }
 
-/// The value before and after a change of one parameter: "800 m → 900 m".
+/// The value before and after a change of one parameter: "800 m to 900 m".
 pub(super) fn values(before: &Planet, after: &Planet) -> Option<String> {
     let changes = diff::diff(before, after);
     let [only] = changes.as_slice() else { return None };
-    let values = format!("{} → {}", short_text(before, only)?, short_text(after, only)?);
+    let values = format!("{} to {}", short_text(before, only)?, short_text(after, only)?);
     (values.chars().count() <= MOST_OF_VALUES).then_some(values)
 }
 
@@ -96,7 +96,7 @@ mod tests {
             layers: vec![Layer { amplitude_m, bias, ..Layer::default() }],
             ..Planet::default()
         };
-        assert_eq!(values(&layer(800.0, 0.5), &layer(912.3456, 0.5)).as_deref(), Some("800 m → 912.3 m"));
+        assert_eq!(values(&layer(800.0, 0.5), &layer(912.35, 0.5)).as_deref(), Some("800 m to 912.35 m"));
         assert_eq!(values(&layer(800.0, 0.5), &layer(900.0, 0.6)), None, "two parameters");
         assert_eq!(values(&layer(800.0, 0.5), &layer(800.0, 0.5)), None);
     }

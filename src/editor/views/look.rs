@@ -31,6 +31,7 @@ pub fn set_up(ctx: &egui::Context) {
         visuals.widgets.noninteractive.fg_stroke.color = egui::Color32::from_gray(185);
         visuals.widgets.inactive.fg_stroke.color = egui::Color32::from_gray(205);
         visuals.weak_text_color = Some(egui::Color32::from_gray(146));
+        visuals.error_fg_color = egui::Color32::from_rgb(255, 122, 110);
     });
     ctx.style_mut_of(egui::Theme::Light, |style| {
         style.visuals.widgets.noninteractive.fg_stroke.color = egui::Color32::from_gray(60);

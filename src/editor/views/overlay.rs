@@ -20,6 +20,8 @@ const LONGEST_BAR: f32 = 130.0;
 const RAMP: egui::Vec2 = vec2(180.0, 10.0);
 const MARK: f32 = 11.0;
 const ROW: f32 = 16.0;
+/// Time for which the picture may be behind an edit without a word.
+const PATIENCE_SECS: f32 = 0.8;
 /// Most marks of a legend.
 const MOST_MARKS: usize = 16;
 const INK: Color32 = Color32::from_gray(225);
@@ -70,6 +72,24 @@ fn chips(ui: &mut egui::Ui, rect: Rect, state: &State, commands: &mut Commands) 
         .response;
         response.on_hover_text(format!("{name}: click to change")).accessible_name(format!("{name}: {now}"));
     }
+    if view != DebugView::Shaded
+        && ui.button("Back to shaded").on_hover_text("Show the planet as it looks (key 1)").clicked()
+    {
+        commands.send(Command::Show(DebugView::Shaded));
+    }
+    if let Some(told) = working(state) {
+        let text = egui::RichText::new(told).color(INK).background_color(SHADE).size(11.5);
+        ui.add(egui::Label::new(text).selectable(false));
+        ui.ctx().request_repaint_after_secs(0.25);
+    } else if state.viewport.is_busy() {
+        ui.ctx().request_repaint_after_secs(PATIENCE_SECS);
+    }
+}
+
+/// What the picture waits for, once that takes long.
+fn working(state: &State) -> Option<String> {
+    let waiting_secs = state.viewport.waiting().filter(|_| state.viewport.is_busy())?.as_secs_f32();
+    (waiting_secs > PATIENCE_SECS).then(|| format!("Building… {waiting_secs:.0} s"))
 }
 
 /// A ring with north and the star: up is where the eye looks.

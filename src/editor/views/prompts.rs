@@ -24,7 +24,7 @@ impl Prompts {
         commands.extend(self.question(ctx, state).map(Action::Answer));
         if let Some(orphan) = state.orphans.first()
             && !state.document.is_dirty()
-            && let Some(answer) = recover(ctx, &named(orphan))
+            && let Some(answer) = recover(ctx, orphan)
         {
             commands.push(Action::Answer(Answer::Recover(answer)));
         }
@@ -109,7 +109,9 @@ fn question_about<A: Copy + PartialEq>(
         })
         .inner
     });
-    if modal.inner.is_none() && modal.should_close() { Some(cancel) } else { modal.inner }
+    // A click beside the question answers nothing.
+    let closes = !modal.backdrop_response.clicked() && modal.should_close();
+    if modal.inner.is_none() && closes { Some(cancel) } else { modal.inner }
 }
 
 /// Gives the button of a question the focus, so that Enter presses it, while nothing of the question has it.
@@ -128,7 +130,7 @@ fn unsaved(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<UnsavedAns
         .rolled_over()
         .into_iter()
         .map(|name| format!("{name} had unsaved changes before the random planet; undo brings them back."));
-    let lines: Vec<String> = here.into_iter().chain(before).chain([follows(goal)]).collect();
+    let lines: Vec<String> = here.into_iter().chain(before).chain([follows(state, goal)]).collect();
     let save = ("Save changes", UnsavedAnswer::Save);
     let rest = [("Discard changes", UnsavedAnswer::Discard), ("Cancel", UnsavedAnswer::Cancel)];
     let answers: Vec<_> = dirty.then_some(save).into_iter().chain(rest).collect();
@@ -139,7 +141,7 @@ fn unsaved(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<UnsavedAns
 
 fn unsaved_system(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<UnsavedAnswer> {
     let name = state.system.as_ref().map_or("", |system| &system.system().name);
-    let lines = [format!("The system {name} has unsaved changes."), follows(goal)];
+    let lines = [format!("The system {name} has unsaved changes."), follows(state, goal)];
     let answers = [
         ("Save changes", UnsavedAnswer::Save),
         ("Discard changes", UnsavedAnswer::Discard),
@@ -150,13 +152,17 @@ fn unsaved_system(ctx: &egui::Context, state: &State, goal: &Goal) -> Option<Uns
 }
 
 /// What follows the answer.
-fn follows(goal: &Goal) -> String {
+fn follows(state: &State, goal: &Goal) -> String {
+    let body = |body: usize| state.system.as_ref().and_then(|open| open.system().bodies.get(body));
     match goal {
         Goal::Begin(_) => "Then a new planet begins.".to_owned(),
         Goal::Open => "Then a file is chosen.".to_owned(),
         Goal::OpenPath(path) => format!("Then {} opens.", path.file_name().unwrap_or_default().display()),
         Goal::OpenShipped(_) => "Then a planet of the library opens.".to_owned(),
-        Goal::Visit(..) => "Then the planet of another body opens.".to_owned(),
+        Goal::Visit(to, _) => match body(*to) {
+            Some(body) => format!("Then {} opens.", body.name),
+            None => "Then the planet of another body opens.".to_owned(),
+        },
         Goal::OpenSystem(_) => "Then another system opens.".to_owned(),
         Goal::BeginSystem => "Then a new system begins.".to_owned(),
         Goal::LeaveSystem => "Then the system closes.".to_owned(),
@@ -222,13 +228,39 @@ fn named(orphan: &Orphan) -> String {
     names.join(" and ")
 }
 
-fn recover(ctx: &egui::Context, name: &str) -> Option<RecoverAnswer> {
+/// The file that unsaved work belongs to, and the time since it was kept.
+fn origin(orphan: &Orphan) -> Vec<String> {
+    let of_planet = orphan.planet.as_ref().and_then(|(_, file)| file.as_ref());
+    let file = of_planet.or(orphan.system.as_ref().and_then(|(_, file)| file.as_ref()));
+    let file = match file {
+        Some(file) => format!("It belongs to {}. Undo then goes back to that file.", file.display()),
+        None => "It belongs to no file yet.".to_owned(),
+    };
+    let kept = std::fs::metadata(&orphan.file).and_then(|data| data.modified()).ok();
+    let ago = kept.and_then(|kept| kept.elapsed().ok()).map(|ago| format!("It was kept {} ago.", time_text(ago)));
+    std::iter::once(file).chain(ago).collect()
+}
+
+/// A time in its largest unit.
+fn time_text(time: std::time::Duration) -> String {
+    let secs = time.as_secs();
+    let (count, unit) = match secs {
+        0..60 => (secs, "second"),
+        60..3600 => (secs / 60, "minute"),
+        3600..86_400 => (secs / 3600, "hour"),
+        _ => (secs / 86_400, "day"),
+    };
+    format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
+}
+
+fn recover(ctx: &egui::Context, orphan: &Orphan) -> Option<RecoverAnswer> {
     // Only an answer closes the question: a click beside it must not delete work.
     let modal = egui::Modal::new(egui::Id::unique("recover work")).show(ctx, |ui| {
         ui.set_width(360.0);
         ui.heading("Recover unsaved work?");
         ui.add_space(4.0);
-        ui.label(format!("The editor stopped without saving {name}."));
+        ui.label(format!("The editor stopped without saving {}.", named(orphan)));
+        origin(orphan).iter().for_each(|line| drop(ui.label(line)));
         ui.add_space(12.0);
         ui.horizontal(|ui| {
             let later = "It is offered again at the next start";

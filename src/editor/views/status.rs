@@ -1,6 +1,7 @@
 //! The status bar: the ground under the pointer, and figures of the picture.
 
 use crate::editor::state::State;
+use crate::editor::viewport::Viewport;
 use crate::editor::viewport::pointer::KnownPlace;
 use crate::editor::widgets::number::{format_digits, length_text, megabytes};
 use crate::sphere::LatLon;
@@ -47,45 +48,52 @@ fn ground_text(under: &KnownPlace, has_air: bool) -> String {
     )
 }
 
-/// Right to left.
+/// Right to left: the quality, and what the picture is doing. The figures behind it are in its tooltip and in the
+/// window of the performance.
 fn figures(ui: &mut egui::Ui, state: &State) {
     let viewport = &state.viewport;
     let quality = viewport.settings.quality.label();
     ui.label(quality).on_hover_text(format!("Quality. Drawn by {}", state.adapter));
-    let frames = match viewport.frame_meter.interval_secs() {
-        Some(secs) => format!("{:.0} fps, {:.1} ms", 1.0 / secs.max(1e-4), secs * 1000.0),
-        None => match viewport.refinement() {
-            Some((drawn, most)) if 0 < drawn && drawn < most => format!("refining {drawn}/{most}"),
-            _ => "idle".to_owned(),
-        },
+    let now = match (viewport.frame_meter.interval_secs(), viewport.refinement()) {
+        _ if viewport.is_busy() => "building…".to_owned(),
+        (Some(secs), _) => format!("{:.0} fps", 1.0 / secs.max(1e-4)),
+        (None, Some((drawn, most))) if 0 < drawn && drawn < most => format!("refining {drawn}/{most}"),
+        _ => "idle".to_owned(),
     };
-    ui.label(frames).on_hover_text(
-        "Pictures per second while something moves, then samples of the still picture; nothing is drawn while nothing \
-         changes",
+    ui.label(now).on_hover_ui(|ui| figures_of(ui, viewport));
+}
+
+fn figures_of(ui: &mut egui::Ui, viewport: &Viewport) {
+    ui.label(
+        "Pictures a second while something moves, then samples of the still picture. Nothing is drawn while nothing \
+         changes.",
     );
-    if let Some(duration) = viewport.edit_clock.last() {
-        ui.label(format!("edit {:.1} ms", duration.as_secs_f64() * 1000.0))
-            .on_hover_text("From the last edit to its complete picture");
+    if let Some(secs) = viewport.frame_meter.interval_secs() {
+        ui.label(format!("{:.1} ms from picture to picture", secs * 1000.0));
     }
-    let memory = viewport.memory();
-    ui.label(format!("{:.0} MB", megabytes(memory.used_bytes as u64))).on_hover_text(format!(
-        "In the cache: {} tiles and {} layer fields, at most {:.0} MB",
-        memory.tiles,
-        memory.fields,
-        megabytes(memory.budget_bytes as u64)
-    ));
+    if let Some(duration) = viewport.edit_clock.last() {
+        ui.label(format!("{:.1} ms from the last edit to its picture", duration.as_secs_f64() * 1000.0));
+    }
     if let Some(surface) = viewport.surface() {
-        let stats = surface.stats;
-        let drawn = viewport.stats();
-        let busy = if viewport.is_busy() { " …" } else { "" };
-        ui.label(format!("{} tiles, {}k vertices{busy}", stats.tiles, stats.vertices / 1000)).on_hover_text(format!(
-            "{} tiles built in {:.1} ms; {} tiles and {} triangles drawn",
+        let (stats, drawn) = (surface.stats, viewport.stats());
+        ui.label(format!(
+            "{} tiles with {}k vertices; {} built in {:.1} ms; {} tiles and {} triangles drawn",
+            stats.tiles,
+            stats.vertices / 1000,
             stats.tiles_built,
             stats.duration_secs * 1000.0,
             drawn.tiles_drawn,
             drawn.triangles
         ));
     }
+    let memory = viewport.memory();
+    ui.label(format!(
+        "In the cache: {} tiles and {} layer fields, {:.0} of at most {:.0} MB",
+        memory.tiles,
+        memory.fields,
+        megabytes(memory.used_bytes as u64),
+        megabytes(memory.budget_bytes as u64)
+    ));
 }
 
 fn mode_text(state: &State) -> String {

@@ -153,6 +153,10 @@ pub fn tell(ui: &egui::Ui, field: &egui::Response) {
     }
     let ctx = ui.ctx().clone();
     ctx.request_repaint_after_secs(left_secs as f32);
+    // Not over a question.
+    if ctx.memory(|memory| memory.top_modal_layer()).is_some_and(|modal| modal != ui.layer_id()) {
+        return;
+    }
     egui::Tooltip::always_open(ctx, ui.layer_id(), field.id.with("refused"), field.rect).show(|ui| {
         ui.colored_label(ui.visuals().error_fg_color, &refusal.why);
     });

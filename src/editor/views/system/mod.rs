@@ -27,6 +27,8 @@ use std::path::Path;
 use trial::TrialEdit;
 
 const WIDTH: f32 = 350.0;
+/// Height of what is not in the list of the window: its head, the menus, the status bar.
+const BESIDES: f32 = 200.0;
 const DAY_SECS: f64 = 86_400.0;
 
 /// The window's layer.
@@ -95,7 +97,7 @@ impl SystemWindow {
                 ui.weak("A system has stars, planets and moons. Each planet is a preset; the others stand in its sky.");
                 return;
             };
-            let height = (ctx.content_rect().height() - 150.0).max(120.0);
+            let height = (ctx.content_rect().height() - BESIDES).max(120.0);
             let area = egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height);
             // Room for the scroll bar.
             let beside = egui::Frame::new().inner_margin(egui::Margin { right: 10, ..egui::Margin::ZERO });
