@@ -241,6 +241,7 @@ impl Tileset {
         std::f64::consts::FRAC_PI_2 * planet.radius_m() / f64::from(self.cells) / f64::from(1_u32 << level)
     }
 
+    #[inline(never)] // The frames of the evaluator are large, and lists of tiles are divided many times.
     fn write(&self, terrain: &Terrain, node: NodeId, path: &Path, progress: &Progress<'_>) -> Result<(), BakeError> {
         let planet = terrain.planet();
         let (radius_m, spacing_m) = (planet.radius_m(), self.spacing_m(planet, node.level));
