@@ -46,7 +46,7 @@ pub use projection::{Projection, Region};
 
 use crate::planet::file::{Target, write_atomically_with};
 use crate::planet::{Key, VERSION};
-use crate::terrain::{Scratch, Terrain};
+use crate::terrain::Terrain;
 use format::{Shape, Steps};
 use geotiff::{Ground, Place};
 use progress::Progress;
@@ -58,7 +58,6 @@ use std::io::Write as _;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use strips::{Evaluator, Strips};
 
 /// Largest width of a picture, in pixels.
@@ -70,6 +69,7 @@ const STRIP_WORK: u64 = 8;
 
 /// Maps of a planet that are to be written to files.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Bake {
     /// The planet, with its final world maps.
     pub terrain: Arc<Terrain>,
@@ -96,6 +96,7 @@ pub struct Bake {
 /// Each river of a structure is made when a point near it asks. Where pixels are farther apart than valleys, hardly two
 /// of them share a valley, and all detail takes milliseconds a pixel: hours for a map of the globe.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Detail {
     /// All: what [`Terrain::sample`] answers.
     #[default]
@@ -144,6 +145,7 @@ pub struct Shard {
 
 /// How a bake ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// The maps are written: these files, and a `.json` beside each.
     Done(Vec<PathBuf>),
@@ -212,23 +214,11 @@ impl Bake {
         let encoding = if self.shard.is_some() { 0 } else { u64::from(strips.count()) * self.maps.len() as u64 };
         let progress = Progress::new(mine.len() as u64 * STRIP_WORK + encoding, go_on);
         let evaluator = Evaluator::new(self);
-        // Each thread takes the next strip. Dividing the list between threads would nest as deep as the list is long,
-        // with the large frames of the evaluator in each level of the stack.
-        let (next, has_failed) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let computed = rayon::broadcast(|_| {
-            let mut scratch = Scratch::default();
-            while !progress.is_stopped()
-                && !has_failed.load(Ordering::Relaxed)
-                && let Some(strip) = mine.get(next.fetch_add(1, Ordering::Relaxed))
-            {
-                strips.compute(strip, &evaluator, &mut scratch).inspect_err(|_| {
-                    has_failed.store(true, Ordering::Relaxed);
-                })?;
-                progress.add(STRIP_WORK);
-            }
+        progress.each(&mine, |strip, scratch| {
+            strips.compute(strip, &evaluator, scratch)?;
+            progress.add(STRIP_WORK);
             Ok(())
-        });
-        computed.into_iter().collect::<Result<(), BakeError>>()?;
+        })?;
         if progress.is_stopped() {
             return Ok(Outcome::Stopped);
         }

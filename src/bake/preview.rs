@@ -12,6 +12,7 @@ use std::path::PathBuf;
 
 /// A small picture of a map. The faces of a cube stand side by side.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Preview {
     /// The map.
     pub map: Map,

@@ -27,6 +27,7 @@ const MOST_LINKS: usize = 40;
 
 /// A preset that could not be loaded.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum LoadError {
     /// The file could not be read.
     #[error("{}: {source}", path.display())]
@@ -54,6 +55,7 @@ fn lines(file: &str, problems: &[Problem]) -> String {
 /// A preset that could not be saved.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {message}", path.display())]
+#[non_exhaustive]
 pub struct SaveError {
     /// The file.
     pub path: PathBuf,

@@ -43,6 +43,7 @@ use std::time::Instant;
 
 /// A complete set of tiles that covers the whole planet without a gap. The renderer draws it.
 #[derive(Clone)]
+#[non_exhaustive]
 pub struct Surface {
     /// The terrain that the tiles were made with.
     pub terrain: Arc<Terrain>,
@@ -62,6 +63,7 @@ pub struct Surface {
 
 /// A leaf of the LOD cut: a tile and its neighbourhood.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Leaf {
     /// The mesh.
     pub tile: Arc<Tile>,
