@@ -252,7 +252,7 @@ fn stress(file: &str) {
                         let down = (-dirs[i]).to_array();
                         let away_m = tellus_raycast(shared.0, above_m.as_ptr(), down.as_ptr());
                         assert!((away_m - 800.0).abs() < 1.0, "{away_m}");
-                        let mut vertices_m = [[0.0; 3]; 25];
+                        let mut vertices_m = [[0.0_f64; 3]; 25];
                         let to = vertices_m.as_mut_ptr().cast();
                         assert!(tellus_tile(shared.0, (i % 6) as u32, 3, 2, 5, 5, to, std::ptr::null_mut()));
                         assert!(vertices_m.iter().all(|at| at.iter().all(|c| c.is_finite())));
