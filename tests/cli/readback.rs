@@ -1,5 +1,5 @@
-//! Every map of a planet with rivers, clouds and towns, in every format and projection, read by other code than wrote it
-//! and compared with `tellus sample` at a thousand places.
+//! Every map of a planet with rivers, clouds and towns, in every format and projection, read by other code than wrote
+//! it and compared with `tellus sample` at a thousand places.
 
 use crate::bake::{command, expected, pixels, sampled_of};
 use crate::{LAYERED, decode};
