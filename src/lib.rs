@@ -51,6 +51,8 @@
 
 /// The vectors of all signatures.
 pub use glam;
+/// The threads of [`tiles::BuilderOptions::pool`].
+pub use rayon;
 
 pub mod atmosphere;
 pub mod clouds;
@@ -77,7 +79,10 @@ pub mod film;
 #[cfg(feature = "render")]
 pub mod render;
 
+// Programs, not parts of one.
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "editor")]
+#[doc(hidden)]
 pub mod editor;

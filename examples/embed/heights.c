@@ -1,4 +1,4 @@
-/* Prints the ground under some places, and the extent of a tile. Build the library first (docs/embedding.md), then:
+/* Prints the ground under some places, the extent of a tile, and clouds, water and a falling ball at a time. Build the library first (docs/embedding.md), then:
    cc -Iinclude examples/embed/heights.c -Ltarget/debug -ltellus -lm -o heights */
 
 #include "tellus.h"
@@ -42,6 +42,33 @@ int main(int argc, char **argv) {
         greatest_m = fmax(greatest_m, height_m);
     }
     printf("tile %.3f %.3f\n", least_m, greatest_m);
+
+    /* What a game asks at each moment: clouds, the height of the water with its waves, and where a ball that falls by
+       two kilometres touches the ground. */
+    const double time_s = 5000.0;
+    struct TellusClouds clouds[COUNT];
+    double water_m[COUNT];
+    if (!tellus_clouds(planet, directions[0], COUNT, time_s, clouds)) fail();
+    for (int i = 0; i < COUNT; i++) {
+        if (!tellus_water(planet, directions[i], 1, time_s, &water_m[i])) fail();
+        double ends_m[6], motion_m[3];
+        for (int k = 0; k < 6; k++) {
+            ends_m[k] = directions[i][k % 3] * (tellus_radius_m(planet) + samples[i].height_m + 1000.0);
+        }
+        for (int k = 0; k < 3; k++) motion_m[k] = directions[i][k] * -2000.0;
+        struct TellusContact contact;
+        int touches = tellus_sweep(planet, ends_m, 2.0, motion_m, &contact);
+        if (touches != 1) fail();
+        printf("clouds %.4f %.4f %.4f, ", clouds[i].low, clouds[i].middle, clouds[i].veil);
+        if (isnan(water_m[i])) printf("dry, ");
+        else printf("water %.3f, ", water_m[i]);
+        printf("falls by %.3f\n", contact.share * 2000.0);
+    }
+
+    /* Ground for a physics engine. */
+    float chunk_m[9 * 9][3], normals[9 * 9][3];
+    if (!tellus_chunk(planet, directions[0], 100.0, 8, -1, 2, chunk_m[0], normals[0])) fail();
+    printf("chunk %.3f %.3f %.3f\n", chunk_m[80][0], chunk_m[80][1], chunk_m[80][2]);
 
     free(indices);
     free(positions_m);

@@ -1,4 +1,4 @@
-"""Prints the ground under some places, and the extent of a tile.
+"""Prints the ground under some places, the extent of a tile, and clouds, water and a falling ball at a time.
 
 Build the library first (docs/embedding.md), then: python3 examples/embed/heights.py target/debug/libtellus.so
 """
@@ -6,7 +6,7 @@ Build the library first (docs/embedding.md), then: python3 examples/embed/height
 import ctypes
 import math
 import sys
-from ctypes import POINTER, c_bool, c_char_p, c_double, c_float, c_size_t, c_uint32, c_void_p
+from ctypes import POINTER, byref, c_bool, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p
 
 SIDE = 33
 
@@ -23,6 +23,14 @@ class Sample(ctypes.Structure):
     ]
 
 
+class Clouds(ctypes.Structure):
+    _fields_ = [("low", c_double), ("middle", c_double), ("veil", c_double), ("fog", c_double)]
+
+
+class Contact(ctypes.Structure):
+    _fields_ = [("share", c_double), ("gap_m", c_double), ("point_m", c_double * 3), ("normal", c_double * 3)]
+
+
 def load(path):
     library = ctypes.CDLL(path)
     numbers = POINTER(c_double)
@@ -37,6 +45,13 @@ def load(path):
         "tellus_direction": (c_bool, [c_double, c_double, numbers]),
         "tellus_samples": (c_bool, [c_void_p, numbers, c_size_t, POINTER(Sample)]),
         "tellus_tile": (c_bool, [c_void_p] + [c_uint32] * 5 + [numbers, POINTER(c_float)]),
+        "tellus_clouds": (c_bool, [c_void_p, numbers, c_size_t, c_double, POINTER(Clouds)]),
+        "tellus_water": (c_bool, [c_void_p, numbers, c_size_t, c_double, numbers]),
+        "tellus_chunk": (
+            c_bool,
+            [c_void_p, numbers, c_double, c_uint32, c_int32, c_int32, POINTER(c_float), POINTER(c_float)],
+        ),
+        "tellus_sweep": (c_int32, [c_void_p, numbers, c_double, numbers, POINTER(Contact)]),
     }
     for name, (result, arguments) in signatures.items():
         function = getattr(library, name)
@@ -72,6 +87,29 @@ def main():
     radius_m = tellus.tellus_radius_m(planet)
     heights_m = [math.hypot(*positions_m[i : i + 3]) - radius_m for i in range(0, len(positions_m), 3)]
     print(f"tile {min(heights_m):.3f} {max(heights_m):.3f}")
+
+    # What a game asks at each moment.
+    time_s = 5000.0
+    clouds = (Clouds * len(places))()
+    check(tellus.tellus_clouds(planet, directions, len(places), time_s, clouds))
+    for index, sample in enumerate(samples):
+        direction = (c_double * 3)(*directions[3 * index : 3 * index + 3])
+        water_m = c_double()
+        check(tellus.tellus_water(planet, direction, 1, time_s, byref(water_m)))
+        start_m = [c * (radius_m + sample.height_m + 1000.0) for c in direction]
+        contact = Contact()
+        ends_m, motion_m = (c_double * 6)(*start_m, *start_m), (c_double * 3)(*[c * -2000.0 for c in direction])
+        touches = tellus.tellus_sweep(planet, ends_m, 2.0, motion_m, byref(contact))
+        check(touches == 1)
+        cover = clouds[index]
+        water = "dry" if math.isnan(water_m.value) else f"water {water_m.value:.3f}"
+        falls = f"falls by {contact.share * 2000.0:.3f}"
+        print(f"clouds {cover.low:.4f} {cover.middle:.4f} {cover.veil:.4f}, {water}, {falls}")
+
+    chunk_m, normals = (c_float * (3 * 81))(), (c_float * (3 * 81))()
+    first = (c_double * 3)(*directions[:3])
+    check(tellus.tellus_chunk(planet, first, 100.0, 8, -1, 2, chunk_m, normals))
+    print("chunk " + " ".join(f"{c:.3f}" for c in chunk_m[240:]))
     tellus.tellus_planet_free(planet)
 
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Why a bake failed. Strips that are done stay in their folder: the same bake goes on from there.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum BakeError {
     /// What was asked for is not possible.
     #[error("{0}")]

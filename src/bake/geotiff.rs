@@ -4,7 +4,6 @@
 //! The planet is a sphere of its own radius. Files of 4 GB and more are BigTIFF.
 
 use super::format::{Format, Shape, Source};
-use super::projection::{Projection, Region};
 use std::io::{self, BufWriter, Seek, Write};
 use tiff::TiffError;
 use tiff::encoder::colortype::{ColorType, Gray16, Gray32Float, RGB16, RGB32Float};
@@ -25,8 +24,25 @@ const AZIMUTHAL_EQUIDISTANT: u16 = 12;
 
 /// Where a picture lies on a planet.
 pub(super) struct Place {
-    pub(super) projection: Projection,
+    pub(super) ground: Ground,
     pub(super) radius_m: f64,
+}
+
+/// How a picture lies on the sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Ground {
+    /// In no projection of GIS programs.
+    Elsewhere,
+    /// All of the globe, equirectangular.
+    Globe,
+    /// On a plane that touches the sphere, azimuthal equidistant.
+    Plane {
+        lat_deg: f64,
+        lon_deg: f64,
+        /// The left edge along east and the upper edge along north.
+        corner_m: [f64; 2],
+        pixel_m: f64,
+    },
 }
 
 /// Writes a picture.
@@ -117,20 +133,17 @@ const CITATION: &str = "Sphere of a Tellus planet|";
 impl Place {
     /// The tags that hold numbers: the corner, the size of a pixel, and parameters of the keys.
     fn numbers(&self, shape: &Shape) -> Vec<(Tag, Vec<f64>)> {
-        let (pixel, corner) = match self.projection {
-            Projection::Cube => return Vec::new(),
-            Projection::Equirect => {
+        let (pixel, corner) = match self.ground {
+            Ground::Elsewhere => return Vec::new(),
+            Ground::Globe => {
                 let pixel = [360.0 / f64::from(shape.width), 180.0 / f64::from(shape.height)];
                 (pixel, [-180.0, 90.0])
             }
-            Projection::Region(Region { side_km, .. }) => {
-                let side_m = side_km * 1000.0;
-                ([side_m / f64::from(shape.width); 2], [-side_m / 2.0, side_m / 2.0])
-            }
+            Ground::Plane { corner_m, pixel_m, .. } => ([pixel_m; 2], corner_m),
         };
         let mut parameters = vec![self.radius_m, self.radius_m];
-        if let Projection::Region(region) = self.projection {
-            parameters.extend([region.lat_deg, region.lon_deg, 0.0, 0.0]);
+        if let Ground::Plane { lat_deg, lon_deg, .. } = self.ground {
+            parameters.extend([lat_deg, lon_deg, 0.0, 0.0]);
         }
         vec![
             (Tag::ModelPixelScaleTag, vec![pixel[0], pixel[1], 0.0]),
@@ -145,7 +158,7 @@ impl Place {
         let double = |key: u16, index: u16| [key, Tag::GeoDoubleParamsTag.to_u16(), 1, index];
         let citation = |key: u16| [key, Tag::GeoAsciiParamsTag.to_u16(), CITATION.len() as u16, 0];
         let here = |key: u16, value: u16| [key, 0, 1, value];
-        let (pixel_is_area, is_projected) = (1, matches!(self.projection, Projection::Region(_)));
+        let (pixel_is_area, is_projected) = (1, matches!(self.ground, Ground::Plane { .. }));
         let mut keys = vec![
             here(1024, if is_projected { 1 } else { 2 }),
             here(1025, pixel_is_area),
@@ -157,10 +170,10 @@ impl Place {
             double(2057, 0),
             double(2058, 1),
         ];
-        match self.projection {
-            Projection::Cube => return None,
-            Projection::Equirect => {}
-            Projection::Region(_) => keys.extend([
+        match self.ground {
+            Ground::Elsewhere => return None,
+            Ground::Globe => {}
+            Ground::Plane { .. } => keys.extend([
                 here(3072, USER_DEFINED),
                 here(3074, USER_DEFINED),
                 here(3075, AZIMUTHAL_EQUIDISTANT),
@@ -183,12 +196,12 @@ mod tests {
 
     #[test]
     fn keys_are_sorted_and_counted() {
-        let region = Region { lat_deg: 10.0, lon_deg: 20.0, side_km: 50.0 };
-        for projection in [Projection::Equirect, Projection::Region(region)] {
-            let keys = Place { projection, radius_m: 1e6 }.keys().unwrap();
+        let plane = Ground::Plane { lat_deg: 10.0, lon_deg: 20.0, corner_m: [-5e4, 5e4], pixel_m: 10.0 };
+        for ground in [Ground::Globe, plane] {
+            let keys = Place { ground, radius_m: 1e6 }.keys().unwrap();
             assert_eq!(keys.len(), 4 + 4 * usize::from(keys[3]));
             assert!(keys[4..].chunks(4).is_sorted_by_key(|key| key[0]), "{keys:?}");
         }
-        assert!(Place { projection: Projection::Cube, radius_m: 1e6 }.keys().is_none());
+        assert!(Place { ground: Ground::Elsewhere, radius_m: 1e6 }.keys().is_none());
     }
 }

@@ -20,26 +20,19 @@ pub(super) struct Lights {
     settlements: f64,
     radius_m: f64,
     sea_m: f64,
-    /// Size of a pixel on the ground.
-    footprint_m: f64,
 }
 
 impl Lights {
-    /// The lights of a planet in pixels of a size. None if it has none.
-    pub(super) fn new(planet: &Planet, pixel_rad: f64) -> Option<Self> {
+    /// The lights of a planet. None if it has none.
+    pub(super) fn new(planet: &Planet) -> Option<Self> {
         let sea_m = planet.sea_level_m().filter(|_| planet.settlements > 0.0)?;
-        Some(Self {
-            tile: NoiseTile::new(),
-            settlements: planet.settlements,
-            radius_m: planet.radius_m(),
-            sea_m,
-            footprint_m: pixel_rad * planet.radius_m(),
-        })
+        Some(Self { tile: NoiseTile::new(), settlements: planet.settlements, radius_m: planet.radius_m(), sea_m })
     }
 
     /// Linear sRGB of a place whose height, climate and water are known; sunlit white ground has 1. `slope`: rise over
-    /// run as pixels show it.
-    pub(super) fn at(&self, dir: DVec3, sample: &Sample, slope: f64) -> [f64; 3] {
+    /// run as pixels show it, which are `pixel_rad` apart.
+    pub(super) fn at(&self, dir: DVec3, sample: &Sample, slope: f64, pixel_rad: f64) -> [f64; 3] {
+        let footprint_m = pixel_rad * self.radius_m;
         let over_sea_m = sample.height_m - self.sea_m;
         let is_wet = sample.water_level_m.is_some_and(|level_m| level_m > sample.height_m);
         let temperature_c = sample.temperature_c;
@@ -53,7 +46,7 @@ impl Lights {
         let (mut crowd, mut newest) = (1.0, 1.0);
         let mut position_m = dir * (self.radius_m + sample.height_m);
         for period_m in VARIATION_PERIODS_M.into_iter().take(CASCADE) {
-            let lod = libm::log2((self.footprint_m * SIDE as f64 / period_m).max(1e-6));
+            let lod = libm::log2((footprint_m * SIDE as f64 / period_m).max(1e-6));
             let at = position_m / period_m;
             let n = self.tile.ground_at(DVec3::new(at.z, at.x, at.y), lod.max(0.0));
             let n2 = n * n;
@@ -87,32 +80,32 @@ mod tests {
         Sample { height_m, temperature_c: 15.0, moisture: 0.6, ..Sample::default() }
     }
 
-    fn mean(lights: &Lights, sample: &Sample) -> f64 {
-        spread(20_000).map(|dir| lights.at(dir, sample, 0.0)[0]).sum::<f64>() / 20_000.0
+    fn mean(lights: &Lights, sample: &Sample, pixel_rad: f64) -> f64 {
+        spread(20_000).map(|dir| lights.at(dir, sample, 0.0, pixel_rad)[0]).sum::<f64>() / 20_000.0
     }
 
     #[test]
     fn people_live_on_low_flat_mild_land() {
-        let lights = Lights::new(&planet(), 1e-3).unwrap();
-        let good = mean(&lights, &mild(20.0));
+        let lights = Lights::new(&planet()).unwrap();
+        let good = mean(&lights, &mild(20.0), 1e-3);
         assert!(good > 0.2 * TOWN_LIGHT, "{good}");
-        assert!(mean(&lights, &mild(1000.0)) < 0.5 * good);
+        assert!(mean(&lights, &mild(1000.0), 1e-3) < 0.5 * good);
         let sea = Sample { water_level_m: Some(0.0), ..mild(-20.0) };
         let lake = Sample { water_level_m: Some(25.0), ..mild(20.0) };
         for dark in [sea, lake, Sample { temperature_c: -20.0, ..mild(20.0) }, Sample { moisture: 0.05, ..mild(20.0) }]
         {
-            assert_eq!(mean(&lights, &dark), 0.0, "{dark:?}");
+            assert_eq!(mean(&lights, &dark, 1e-3), 0.0, "{dark:?}");
         }
-        assert_eq!(lights.at(DVec3::X, &mild(20.0), 0.5), [0.0; 3]);
-        assert!(Lights::new(&Planet { settlements: 0.0, ..planet() }, 1e-3).is_none());
-        assert!(Lights::new(&Planet { water: None, ..planet() }, 1e-3).is_none());
+        assert_eq!(lights.at(DVec3::X, &mild(20.0), 0.5, 1e-3), [0.0; 3]);
+        assert!(Lights::new(&Planet { settlements: 0.0, ..planet() }).is_none());
+        assert!(Lights::new(&Planet { water: None, ..planet() }).is_none());
     }
 
     #[test]
     fn coarse_pixels_have_the_mean_of_fine_ones() {
         // Each octave's factor has a mean of 1, and coarse pixels take it; the bound on the light costs some of it.
         let [fine, coarse] =
-            [1e-5, 1.0].map(|pixel_rad| mean(&Lights::new(&planet(), pixel_rad).unwrap(), &mild(200.0)));
+            [1e-5, 1.0].map(|pixel_rad| mean(&Lights::new(&planet()).unwrap(), &mild(200.0), pixel_rad));
         assert!(fine > 0.3 * coarse && fine < 1.2 * coarse, "{fine} {coarse}");
     }
 }

@@ -9,7 +9,7 @@
 //! goes on where it stopped, several machines can share one ([`Shard`]), memory does not grow with the size, and the
 //! range of 16 bits is known before the first pixel is written. Every way gives the same bytes.
 //!
-//! - `maps`: what can be baked; `projection`: where pixels lie; `format`: kinds of file, and steps of their numbers
+//! - `maps`: what can be baked; `projection`: where pixels lie; `pieces`: landscapes and quadtrees; `format`: kinds of file, and steps of their numbers
 //! - `occlusion`: ambient occlusion; `lights`: lights of settlements
 //! - `strips`: computes and keeps strips; `rows`: reads a map from them
 //! - `png`, `openexr`, `geotiff`, `ktx2`, `raw`: encoders; `sidecar`: the JSON beside a map
@@ -25,6 +25,7 @@ mod maps;
 pub mod mesh;
 mod occlusion;
 mod openexr;
+mod pieces;
 mod png;
 mod preview;
 mod progress;
@@ -39,14 +40,15 @@ mod tests;
 pub use error::BakeError;
 pub use format::Format;
 pub use maps::Map;
+pub use pieces::{Landscape, Quadtree};
 pub use preview::Preview;
 pub use projection::{Projection, Region};
 
 use crate::planet::file::{Target, write_atomically_with};
 use crate::planet::{Key, VERSION};
-use crate::terrain::{Scratch, Terrain};
+use crate::terrain::Terrain;
 use format::{Shape, Steps};
-use geotiff::Place;
+use geotiff::{Ground, Place};
 use progress::Progress;
 use projection::{Grid, longest_side_km};
 use rayon::prelude::*;
@@ -67,6 +69,7 @@ const STRIP_WORK: u64 = 8;
 
 /// Maps of a planet that are to be written to files.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Bake {
     /// The planet, with its final world maps.
     pub terrain: Arc<Terrain>,
@@ -93,6 +96,7 @@ pub struct Bake {
 /// Each river of a structure is made when a point near it asks. Where pixels are farther apart than valleys, hardly two
 /// of them share a valley, and all detail takes milliseconds a pixel: hours for a map of the globe.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Detail {
     /// All: what [`Terrain::sample`] answers.
     #[default]
@@ -118,6 +122,15 @@ impl Detail {
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|detail| detail.name() == name)
     }
+
+    /// Valleys that points so far apart would not show are left out, for pixels of a size. Those of the solved drainage
+    /// always show.
+    fn spacing_rad(self, terrain: &Terrain, pixel_rad: f64) -> f64 {
+        match (self, terrain.river_spacing_rad()) {
+            (Detail::Pixel, Some(coarsest_rad)) => pixel_rad.min(coarsest_rad),
+            _ => 0.0,
+        }
+    }
 }
 
 /// One of several equal parts of a bake, each for another process or machine. Its strips go to the strip folder; a bake
@@ -132,6 +145,7 @@ pub struct Shard {
 
 /// How a bake ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// The maps are written: these files, and a `.json` beside each.
     Done(Vec<PathBuf>),
@@ -177,9 +191,12 @@ impl Bake {
         let strip_folder = folder.join(format!("bake-{:016x}.strips", key.bits() >> 64));
         let strips = Strips::new(grid, self.maps.clone(), key, strip_folder);
         let files = self.files(&strips.grid, folder);
-        for BakedFile { path, .. } in &files {
-            for path in [path.clone(), path.with_extension("json")] {
-                Target::checked(&path).map_err(|error| BakeError::file(&path, error))?;
+        for BakedFile { path, about, .. } in &files {
+            if let (Projection::Quadtree(_), Some(folder)) = (&self.projection, path.parent()) {
+                make_folder(folder)?;
+            }
+            for path in [Some(path), about.as_ref()].into_iter().flatten() {
+                Target::checked(path).map_err(|error| BakeError::file(path, error))?;
             }
         }
         make_folder(&strips.folder)?;
@@ -187,13 +204,17 @@ impl Bake {
             (0..strips.count()).map(|number| strips.strip(number)).filter(|strip| !strips.has(strip)).collect();
         let (mine, others): (Vec<_>, Vec<_>) =
             missing.into_iter().partition(|strip| self.shard.is_none_or(|shard| shard.has(strip.number)));
+        log::info!(
+            "{}: {} of {} strips of {} are to be computed",
+            folder.display(),
+            mine.len(),
+            strips.count(),
+            planet.name
+        );
         let encoding = if self.shard.is_some() { 0 } else { u64::from(strips.count()) * self.maps.len() as u64 };
         let progress = Progress::new(mine.len() as u64 * STRIP_WORK + encoding, go_on);
-        let evaluator = Evaluator::new(self, &strips.grid);
-        mine.par_iter().with_max_len(1).try_for_each_init(Scratch::default, |scratch, strip| {
-            if progress.is_stopped() {
-                return Ok(());
-            }
+        let evaluator = Evaluator::new(self);
+        progress.each(&mine, |strip, scratch| {
             strips.compute(strip, &evaluator, scratch)?;
             progress.add(STRIP_WORK);
             Ok(())
@@ -222,16 +243,12 @@ impl Bake {
     /// Whether the bake takes milliseconds a pixel; see [`Detail`].
     pub fn is_slow(&self) -> bool {
         let planet = self.terrain.planet();
-        let grid = Grid::new(&self.projection, self.size, planet.radius_km);
-        planet.structure.is_some() && self.detail == Detail::All && grid.spacing_rad() * planet.radius_m() > SLOW_M
-    }
-
-    /// Valleys that points so far apart would not show are left out. Those of the solved drainage always show.
-    fn spacing_rad(&self, grid: &Grid) -> f64 {
-        match (self.detail, self.terrain.river_spacing_rad()) {
-            (Detail::Pixel, Some(coarsest_rad)) => grid.spacing_rad().min(coarsest_rad),
-            _ => 0.0,
-        }
+        let pixel_rad = match self.projection {
+            // The coarsest level is as wide as the planet.
+            Projection::Quadtree(_) => Quadtree::pixel_rad(0, self.size),
+            projection => projection.spacing_rad(self.size, planet.radius_km),
+        };
+        planet.structure.is_some() && self.detail == Detail::All && pixel_rad * planet.radius_m() > SLOW_M
     }
 
     /// What is wrong with what is asked for.
@@ -262,8 +279,11 @@ impl Bake {
         if self.projection == Projection::Equirect && !size.is_multiple_of(2) {
             return Err(format!("{size} is odd, and the map is half as high as wide; use {}", size + 1));
         }
-        if let Projection::Region(region) = &self.projection {
-            region.check(planet)?;
+        match &self.projection {
+            Projection::Region(region) => region.check(planet)?,
+            Projection::Landscape(landscape) => landscape.check(planet, size)?,
+            Projection::Quadtree(tree) => tree.check(size)?,
+            Projection::Equirect | Projection::Cube => {}
         }
         if !self.time_secs.is_finite() {
             return Err(format!("a time of {} s is out of range; use a finite number", self.time_secs));
@@ -292,20 +312,54 @@ impl Bake {
         let pictures = grid.pictures();
         let mut files = Vec::new();
         for (index, map) in self.maps.iter().enumerate() {
-            let mut push = |pictures: Range<usize>, face: &str| {
-                let name = format!("{}{face}.{}", map.name(), self.format.extension());
-                files.push(BakedFile { path: folder.join(name), pictures, map: index });
+            let (name, ending) = (map.name(), self.format.extension());
+            let mut push = |pictures: Range<usize>, piece: &str| {
+                let path = folder.join(format!("{name}{piece}.{ending}"));
+                // All tiles of a quadtree have one description.
+                let about = match self.projection {
+                    Projection::Quadtree(_) => (pictures.start == 0).then(|| folder.join(format!("{name}.json"))),
+                    _ => Some(path.with_extension("json")),
+                };
+                files.push(BakedFile { path, about, pictures, map: index });
             };
-            if self.format == Format::Ktx2 {
+            if self.format == Format::Ktx2 && self.projection == Projection::Cube {
                 push(0..pictures, "");
                 continue;
             }
             for picture in 0..pictures {
-                let face = grid.face(picture).map_or(String::new(), |face| format!("_{face}"));
-                push(picture..picture + 1, &face);
+                let piece = match &self.projection {
+                    Projection::Landscape(landscape) => {
+                        let [column, row] = landscape.place(picture);
+                        format!("_x{column}_y{row}")
+                    }
+                    Projection::Quadtree(tree) => format!("/{}", tree.name(picture)),
+                    _ => grid.face(picture).map_or(String::new(), |face| format!("_{face}")),
+                };
+                push(picture..picture + 1, &piece);
             }
         }
         files
+    }
+
+    /// How a picture lies on the sphere.
+    fn ground(&self, picture: usize) -> Ground {
+        let plane = |region: &Region, corner_m, pixel_m| Ground::Plane {
+            lat_deg: region.lat_deg,
+            lon_deg: region.lon_deg,
+            corner_m,
+            pixel_m,
+        };
+        match &self.projection {
+            Projection::Equirect => Ground::Globe,
+            Projection::Cube | Projection::Quadtree(_) => Ground::Elsewhere,
+            Projection::Region(region) => {
+                let side_m = region.side_km * 1000.0;
+                plane(region, [-side_m / 2.0, side_m / 2.0], side_m / f64::from(self.size))
+            }
+            Projection::Landscape(landscape) => {
+                plane(&landscape.region, landscape.corner_m(picture, self.size), landscape.pixel_m(self.size))
+            }
+        }
     }
 
     /// Least and greatest value of each map.
@@ -337,13 +391,13 @@ impl Bake {
         progress: &Progress<'_>,
     ) -> Result<(), BakeError> {
         profiling::scope!("encode a map");
-        let BakedFile { path, pictures, map: index } = file;
+        let BakedFile { path, about, pictures, map: index } = file;
         let map = self.maps[*index];
         let asked = self.heights_m.filter(|_| map == Map::Height);
         let steps = Steps::new(self.format, map, found, asked);
         let (width, height) = (strips.grid.width, strips.grid.height);
         let shape = Shape { width, height, channels: map.channels(), format: self.format, steps };
-        let place = Place { projection: self.projection, radius_m: self.terrain.planet().radius_m() };
+        let place = Place { ground: self.ground(pictures.start), radius_m: self.terrain.planet().radius_m() };
         let mut rows: Vec<_> = pictures.clone().map(|picture| Rows::new(strips, picture, *index, progress)).collect();
         let write = &mut |out: &mut File| match (self.format, &mut rows[..]) {
             (Format::Ktx2, faces) => ktx2::write(out, map, &shape, faces),
@@ -353,18 +407,20 @@ impl Bake {
             (_, rows) => rows.iter_mut().try_for_each(|rows| raw::write(&mut *out, &shape, rows)),
         };
         write_atomically_with(path, Some(&strips.folder), write).map_err(|error| BakeError::file(path, error))?;
+        let Some(beside) = about else { return Ok(()) };
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let faces: Vec<_> = pictures.clone().filter_map(|picture| strips.grid.face(picture)).collect();
-        let about = sidecar::about(self, map, &name, &faces, &shape);
-        let beside = path.with_extension("json");
+        let about = sidecar::about(self, map, &name, (&faces, pictures.start), &shape);
         let write = &mut |file: &mut File| writeln!(file, "{about:#}");
-        write_atomically_with(&beside, Some(&strips.folder), write).map_err(|error| BakeError::file(&beside, error))
+        write_atomically_with(beside, Some(&strips.folder), write).map_err(|error| BakeError::file(beside, error))
     }
 }
 
 /// A file that is to be written.
 struct BakedFile {
     path: PathBuf,
+    /// The JSON that describes it, if it is not another file's.
+    about: Option<PathBuf>,
     /// Its pictures: one, or the six faces of a cube.
     pictures: Range<usize>,
     /// Index of the map.

@@ -12,6 +12,7 @@ use std::path::PathBuf;
 
 /// A small picture of a map. The faces of a cube stand side by side.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Preview {
     /// The map.
     pub map: Map,
@@ -29,11 +30,12 @@ impl Bake {
     /// The answer is None if `go_on` says no.
     pub fn preview(&self, map: Map, width: u32, go_on: &(dyn Fn() -> bool + Sync)) -> Option<Preview> {
         let planet = self.terrain.planet();
-        let pictures = Grid::new(&self.projection, width, planet.radius_km).pictures();
+        let projection = self.projection.whole();
+        let pictures = Grid::new(&projection, width, planet.radius_km).pictures();
         let across = (width / pictures as u32).max(1);
-        let small = Bake { maps: vec![map], size: across, detail: Detail::Pixel, ..self.clone() };
+        let small = Bake { maps: vec![map], projection, size: across, detail: Detail::Pixel, ..self.clone() };
         let grid = Grid::new(&small.projection, across, planet.radius_km);
-        let evaluator = Evaluator::new(&small, &grid);
+        let evaluator = Evaluator::new(&small);
         let strips = Strips::new(grid, vec![map], Key::of(&()), PathBuf::new());
         let parts: Option<Vec<Vec<f32>>> = (0..strips.count())
             .into_par_iter()

@@ -6,7 +6,9 @@
 //!   planet frame.
 //! - Region: azimuthal equidistant about a centre, see [`Tangent::direction`]: true distances and bearings from the
 //!   centre; north is up there. Square pixels.
+//! - Landscapes and quadtrees have many pictures: see [`super::pieces`].
 
+use super::pieces::{Landscape, Quadtree};
 use crate::planet::Planet;
 use crate::sphere::cube::texture_direction;
 use crate::sphere::{Face, LatLon, Tangent};
@@ -15,6 +17,7 @@ use std::f64::consts::{PI, TAU};
 
 /// How pixels lie on the globe.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Projection {
     /// Longitude to the right, latitude upwards: the whole globe in one picture, twice as wide as high.
     Equirect,
@@ -22,6 +25,10 @@ pub enum Projection {
     Cube,
     /// A square region about a centre, azimuthal equidistant.
     Region(Region),
+    /// A square region in tiles that share their border, for terrain engines. A size is that of a tile in vertices.
+    Landscape(Landscape),
+    /// The tiles of a quadtree of the whole globe, with aprons. A size is that of a tile without its apron.
+    Quadtree(Quadtree),
 }
 
 /// A square region.
@@ -60,6 +67,9 @@ impl Projection {
             Projection::Equirect => TAU / f64::from(size),
             Projection::Cube => 2.0 / f64::from(size),
             Projection::Region(region) => region.side_km / radius_km / f64::from(size),
+            Projection::Landscape(landscape) => landscape.pixel_m(size) / (radius_km * 1000.0),
+            // Of the finest level.
+            Projection::Quadtree(tree) => Quadtree::pixel_rad(tree.levels, size),
         }
     }
 
@@ -68,12 +78,13 @@ impl Projection {
         match self {
             Projection::Equirect => "equirect",
             Projection::Cube => "cube",
-            Projection::Region(_) => "azimuthal_equidistant",
+            Projection::Region(_) | Projection::Landscape(_) => "azimuthal_equidistant",
+            Projection::Quadtree(_) => "cube_sphere",
         }
     }
 }
 
-/// The pixels of a bake: one picture, or six of the same size.
+/// The pixels of a bake: one picture, or several of the same size.
 pub(super) struct Grid {
     pub(super) width: u32,
     pub(super) height: u32,
@@ -90,12 +101,16 @@ enum Kind {
     Cube,
     /// The plane of a region.
     Region(Tangent),
+    Landscape(Tangent, Landscape),
+    /// With the size of a tile.
+    Quadtree(Quadtree, u32),
 }
 
 impl Grid {
     /// The pixels of a projection. `size`: width of the picture, or of a face.
     pub(super) fn new(projection: &Projection, size: u32, radius_km: f64) -> Self {
-        let (mut height, side) = (size, f64::from(size));
+        let (mut height, mut width, side) = (size, size, f64::from(size));
+        let tangent = |region: &Region| Tangent::at(LatLon::from_degrees(region.lat_deg, region.lon_deg));
         let kind = match projection {
             Projection::Equirect => {
                 height = size / 2;
@@ -107,21 +122,32 @@ impl Grid {
                 }
             }
             Projection::Cube => Kind::Cube,
-            Projection::Region(region) => {
-                Kind::Region(Tangent::at(LatLon::from_degrees(region.lat_deg, region.lon_deg)))
+            Projection::Region(region) => Kind::Region(tangent(region)),
+            Projection::Landscape(landscape) => Kind::Landscape(tangent(&landscape.region), *landscape),
+            Projection::Quadtree(tree) => {
+                (width, height) = (tree.picture(size), tree.picture(size));
+                Kind::Quadtree(*tree, size)
             }
         };
-        Self { width: size, height, spacing_rad: projection.spacing_rad(size, radius_km), kind }
+        Self { width, height, spacing_rad: projection.spacing_rad(size, radius_km), kind }
     }
 
-    /// Angle between two pixels beside each other, where they are farthest apart.
-    pub(super) fn spacing_rad(&self) -> f64 {
-        self.spacing_rad
+    /// Angle between two pixels of a picture beside each other, where they are farthest apart.
+    pub(super) fn spacing_rad(&self, picture: usize) -> f64 {
+        match &self.kind {
+            Kind::Quadtree(tree, size) => Quadtree::pixel_rad(tree.node(picture).level, *size),
+            _ => self.spacing_rad,
+        }
     }
 
     /// How many pictures there are.
     pub(super) fn pictures(&self) -> usize {
-        if matches!(self.kind, Kind::Cube) { Face::ALL.len() } else { 1 }
+        match &self.kind {
+            Kind::Cube => Face::ALL.len(),
+            Kind::Landscape(_, landscape) => landscape.pictures(),
+            Kind::Quadtree(tree, _) => tree.tiles() as usize,
+            Kind::Equirect { .. } | Kind::Region(_) => 1,
+        }
     }
 
     /// The face of a picture, if it is one.
@@ -145,6 +171,10 @@ impl Grid {
                 let (right, up) = (f64::from(x) + 0.5 - middle, middle - f64::from(y) - 0.5);
                 tangent.direction(right * self.spacing_rad, up * self.spacing_rad)
             }
+            Kind::Landscape(tangent, landscape) => {
+                landscape.direction(tangent, self.spacing_rad, self.width, picture, x, y)
+            }
+            Kind::Quadtree(tree, size) => tree.direction(*size, picture, x, y),
         }
     }
 }
@@ -171,7 +201,7 @@ mod tests {
         let (lat, lon) = lat_lon(&grid, 0, 7, 3);
         assert!((lat + 67.5).abs() < 1e-9 && (lon - 157.5).abs() < 1e-9, "{lat} {lon}");
         // To the bit what a query at that location takes.
-        assert_eq!(grid.spacing_rad(), TAU / 8.0);
+        assert_eq!(grid.spacing_rad(0), TAU / 8.0);
         assert_eq!(grid.direction(0, 5, 1), LatLon::from_degrees(22.5, 67.5).direction());
     }
 

@@ -2,10 +2,12 @@
 
 use super::Bake;
 use super::format::Shape;
+use super::geotiff::Ground;
 use super::maps::{Map, Range, mean_color};
 use super::occlusion::DISTANCES;
 use super::projection::Projection;
 use crate::planet::{Key, Planet, VERSION};
+use crate::sphere::Face;
 use serde_json::{Value, json};
 
 /// What a program may want to know of the planet that something was baked from.
@@ -25,7 +27,8 @@ pub(super) fn of_planet(planet: &Planet) -> Value {
 pub(super) const MADE_BY: &str = concat!("tellus ", env!("CARGO_PKG_VERSION"));
 
 /// What a program must know to read the map in `file`.
-pub(super) fn about(bake: &Bake, map: Map, file: &str, faces: &[&str], shape: &Shape) -> Value {
+/// `faces`: what faces of a cube are in it; `picture`: the number of its first picture.
+pub(super) fn about(bake: &Bake, map: Map, file: &str, (faces, picture): (&[&str], usize), shape: &Shape) -> Value {
     let planet = bake.terrain.planet();
     let mut about = of_planet(planet);
     let of_map = [
@@ -54,15 +57,30 @@ pub(super) fn about(bake: &Bake, map: Map, file: &str, faces: &[&str], shape: &S
         [face] => about["face"] = json!(face),
         all => about["faces"] = json!(all),
     }
-    if let Projection::Region(region) = bake.projection {
-        about["lat_deg"] = json!(region.lat_deg);
-        about["lon_deg"] = json!(region.lon_deg);
-        about["pixel_m"] = json!(region.side_km * 1000.0 / f64::from(shape.width));
+    if let Ground::Plane { lat_deg, lon_deg, corner_m, pixel_m } = bake.ground(picture) {
+        about["lat_deg"] = json!(lat_deg);
+        about["lon_deg"] = json!(lon_deg);
+        about["pixel_m"] = json!(pixel_m);
+        about["corner_m"] = json!(corner_m);
+    }
+    if let Projection::Landscape(landscape) = bake.projection {
+        let [column, row] = landscape.place(picture);
+        about["tiles"] = json!(landscape.tiles);
+        about["tile"] = json!({ "x": column, "y": row });
+        about["unreal"] = unreal(shape, landscape.pixel_m(bake.size));
+    }
+    if let Projection::Quadtree(tree) = bake.projection {
+        about["file"] = json!(format!("{}/{{level}}/{{face}}_{{x}}_{{y}}.{}", map.name(), shape.format.extension()));
+        about["faces"] = json!(Face::ALL.map(Face::name));
+        about["levels"] = json!(tree.levels);
+        about["apron"] = json!(tree.apron);
+        about["tile_size"] = json!(bake.size);
     }
     if map.is_of_clouds() {
         about["time_s"] = json!(bake.time_secs);
     }
-    if map == Map::AmbientOcclusion {
+    // Those of a quadtree are as many pixels of each level.
+    if map == Map::AmbientOcclusion && !matches!(bake.projection, Projection::Quadtree(_)) {
         let pixel_m = bake.projection.spacing_rad(bake.size, planet.radius_km) * planet.radius_m();
         about["distances_m"] = DISTANCES.iter().map(|distance| json!(distance * pixel_m)).collect();
     }
@@ -71,6 +89,16 @@ pub(super) fn about(bake: &Bake, map: Map, file: &str, faces: &[&str], shape: &S
         about["palette"] = planet.biomes.palette.iter().enumerate().map(biome).collect();
     }
     about
+}
+
+/// How Unreal must place and scale a landscape, in its centimetres: it takes a number n of 16 bits for
+/// (n - 32768) / 128 x the scale.
+fn unreal(shape: &Shape, pixel_m: f64) -> Value {
+    let step_m = (shape.steps.max - shape.steps.min) / f64::from(u16::MAX);
+    json!({
+        "scale": [100.0 * pixel_m, 100.0 * pixel_m, 100.0 * 128.0 * step_m],
+        "location_z": 100.0 * (shape.steps.min + 32_768.0 * step_m),
+    })
 }
 
 /// What each channel is.

@@ -7,12 +7,12 @@
 //! Format, little-endian: `MAGIC`, the key of the bake (16 bytes), the number of the strip (4 bytes); for each map its
 //! least and greatest value; for each map its values row by row, channels together. All values are floats of 32 bits.
 
-use super::Bake;
 use super::error::BakeError;
 use super::lights::Lights;
 use super::maps::{MOST_CHANNELS, Map, Site};
 use super::occlusion::open_shares;
 use super::projection::Grid;
+use super::{Bake, Detail};
 use crate::clouds::{CloudCover, CloudField};
 use crate::planet::Key;
 use crate::planet::file::write_atomically_with;
@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 
 /// Most pixels of a strip, unless a single row has more.
 const STRIP_PIXELS: u32 = 1 << 17;
-/// Least number of strips of a picture that has so many rows, so that small bakes use all cores, too.
+/// Least number of strips of a bake that has so many rows, so that small bakes use all cores, too.
 const LEAST_STRIPS: u32 = 32;
 /// Pixels of one query. They form a block rather than a row: a thread then builds the river blocks around them once.
 const TASK: usize = 1024;
@@ -56,10 +56,7 @@ pub(super) struct Evaluator<'a> {
     terrain: &'a Terrain,
     clouds: Option<CloudField>,
     time_secs: f64,
-    /// Valleys and rivers that points so far apart would not show are left out.
-    spacing_rad: f64,
-    /// The angle between pixels.
-    pixel_rad: f64,
+    detail: Detail,
     lights: Option<Lights>,
 }
 
@@ -73,7 +70,8 @@ struct Extras {
 
 impl Strips {
     pub(super) fn new(grid: Grid, maps: Vec<Map>, key: Key, folder: PathBuf) -> Self {
-        let rows = (STRIP_PIXELS / grid.width).min(grid.height.div_ceil(LEAST_STRIPS)).max(1);
+        let least = LEAST_STRIPS.div_ceil(grid.pictures() as u32);
+        let rows = (STRIP_PIXELS / grid.width).min(grid.height.div_ceil(least)).max(1);
         let of_picture = grid.height.div_ceil(rows);
         Self { grid, maps, key, folder, rows, of_picture }
     }
@@ -158,6 +156,7 @@ impl Strips {
     }
 
     /// The values of each map in a strip.
+    #[inline(never)] // The frames of the evaluator are large.
     pub(super) fn values(&self, strip: &Strip, evaluator: &Evaluator<'_>, scratch: &mut Scratch) -> Vec<Vec<f32>> {
         let (width, high) = (self.grid.width as usize, strip.rows.len());
         let mut planes: Vec<Vec<f32>> = self.maps.iter().map(|map| vec![0.0; width * high * map.channels()]).collect();
@@ -170,7 +169,8 @@ impl Strips {
             for row in strip.rows.clone() {
                 dirs.extend(columns.clone().map(|x| self.grid.direction(strip.picture, x as u32, row)));
             }
-            let extras = evaluator.find(&self.maps, &dirs, &mut samples, scratch);
+            let pixel_rad = self.grid.spacing_rad(strip.picture);
+            let extras = evaluator.find(&self.maps, &dirs, pixel_rad, &mut samples, scratch);
             let planet = evaluator.terrain.planet();
             for (i, (&dir, sample)) in dirs.iter().zip(&samples).enumerate() {
                 let clouds = extras.clouds.get(i).copied().unwrap_or_default();
@@ -189,22 +189,29 @@ impl Strips {
 }
 
 impl<'a> Evaluator<'a> {
-    /// All that the maps of a bake on a grid show.
-    pub(super) fn new(bake: &'a Bake, grid: &Grid) -> Self {
-        let (planet, pixel_rad) = (bake.terrain.planet(), grid.spacing_rad());
+    /// All that the maps of a bake show.
+    pub(super) fn new(bake: &'a Bake) -> Self {
+        let planet = bake.terrain.planet();
         let shows_clouds = bake.maps.iter().any(|map| map.is_of_clouds());
         Self {
             terrain: &bake.terrain,
             clouds: planet.clouds.as_ref().filter(|_| shows_clouds).map(|_| CloudField::new(&bake.terrain)),
             time_secs: bake.time_secs,
-            spacing_rad: bake.spacing_rad(grid),
-            pixel_rad,
-            lights: bake.maps.contains(&Map::NightLights).then(|| Lights::new(planet, pixel_rad)).flatten(),
+            detail: bake.detail,
+            lights: bake.maps.contains(&Map::NightLights).then(|| Lights::new(planet)).flatten(),
         }
     }
 
-    /// Fills in what maps ask of the terrain, and gives what they ask besides.
-    fn find(&self, maps: &[Map], dirs: &[DVec3], samples: &mut Vec<Sample>, scratch: &mut Scratch) -> Extras {
+    /// Fills in what maps ask of the terrain, and gives what they ask besides. `pixel_rad`: the angle between pixels.
+    fn find(
+        &self,
+        maps: &[Map],
+        dirs: &[DVec3],
+        pixel_rad: f64,
+        samples: &mut Vec<Sample>,
+        scratch: &mut Scratch,
+    ) -> Extras {
+        let spacing_rad = self.detail.spacing_rad(self.terrain, pixel_rad);
         samples.clear();
         samples.resize(dirs.len(), Sample::default());
         let both = |a: Wanted, b: Wanted| Wanted {
@@ -214,7 +221,7 @@ impl<'a> Evaluator<'a> {
             water: a.water || b.water,
         };
         if let Some(wanted) = maps.iter().filter_map(|map| map.wanted()).reduce(both) {
-            self.terrain.samples_spaced_into(dirs, self.spacing_rad, wanted, samples, scratch);
+            self.terrain.samples_spaced_into(dirs, spacing_rad, wanted, samples, scratch);
         }
         let mut extras = Extras::default();
         if let Some(field) = &self.clouds {
@@ -222,15 +229,15 @@ impl<'a> Evaluator<'a> {
         }
         if maps.contains(&Map::AmbientOcclusion) {
             let heights_m = samples.iter().map(|sample| sample.height_m);
-            let spacings_rad = (self.pixel_rad, self.spacing_rad);
-            extras.open = open_shares(self.terrain, (dirs, heights_m), spacings_rad, scratch);
+            extras.open = open_shares(self.terrain, (dirs, heights_m), (pixel_rad, spacing_rad), scratch);
         }
         if let Some(lights) = &self.lights {
             // The slope that pixels show, not that of every stone.
-            let slopes = self.terrain.slopes_at(dirs, &[self.spacing_rad, self.pixel_rad]).slopes;
+            let slopes = self.terrain.slopes_at(dirs, &[spacing_rad, pixel_rad]).slopes;
             let slopes = slopes.last().map_or(&[][..], Vec::as_slice);
             let sites = dirs.iter().zip(&*samples).zip(slopes);
-            extras.lights = sites.map(|((&dir, sample), slope)| lights.at(dir, sample, slope.length())).collect();
+            extras.lights =
+                sites.map(|((&dir, sample), slope)| lights.at(dir, sample, slope.length(), pixel_rad)).collect();
         }
         extras
     }

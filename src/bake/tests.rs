@@ -128,4 +128,71 @@ fn what_is_not_possible_is_said_before_anything_is_written() {
     wrong(&[Map::Height], Projection::Cube, 1, Format::Exr, "use 2 to 65536");
     wrong(&[Map::Height], region(126.0), 64, Format::Exr, "use more than 0 and at most 126 km on Islet");
     wrong(&[Map::Height], region(f64::NAN), 64, Format::Exr, "out of range");
+    let quadtree = |levels, apron| Projection::Quadtree(Quadtree { levels, apron });
+    wrong(&[Map::Height], quadtree(30, 1), 64, Format::Exr, "30 levels are out of range; use 0 to 7");
+    wrong(&[Map::Height], quadtree(2, 9), 64, Format::Exr, "an apron of 9 pixels is out of range; use 0 to 8");
+    let landscape = |tiles| {
+        let region = Region { lat_deg: 0.0, lon_deg: 0.0, side_km: 10.0 };
+        Projection::Landscape(Landscape { region, tiles })
+    };
+    wrong(&[Map::Height], landscape(0), 1009, Format::R16, "0 tiles of 1009 pixels along a side are out of range");
+    wrong(&[Map::Height], landscape(66), 1009, Format::R16, "use 1 to 65, which is 65536 pixels");
+}
+
+/// The numbers of a file of 16 bits without a head.
+fn numbers(bytes: &[u8]) -> Vec<u16> {
+    bytes.as_chunks().0.iter().map(|&pair| u16::from_le_bytes(pair)).collect()
+}
+
+#[test]
+fn tiles_of_a_landscape_are_named_as_unreal_reads_them_and_share_their_borders() {
+    let region = Region { lat_deg: 50.0, lon_deg: -3.0, side_km: 24.0 };
+    let landscape = Projection::Landscape(Landscape { region, tiles: 3 });
+    let files = baked(&bake(&[Map::Height], landscape, 17, Format::R16));
+    assert_eq!(files.len(), 18);
+    let tile = |x: u32, y: u32| numbers(&files[&format!("height_x{x}_y{y}.r16")]);
+    for i in 0..17 {
+        assert_eq!(tile(0, 1)[i * 17 + 16], tile(1, 1)[i * 17]);
+        assert_eq!(tile(2, 0)[16 * 17 + i], tile(2, 1)[i]);
+    }
+    let about: serde_json::Value = serde_json::from_slice(&files["height_x2_y1.json"]).unwrap();
+    assert_eq!((&about["tile"]["x"], &about["tile"]["y"], &about["pixel_m"]), (&2.into(), &1.into(), &500.0.into()));
+    // The middle of the middle tile is the region's, in Unreal's own words for heights.
+    let number = f64::from(tile(1, 1)[8 * 17 + 8]);
+    let (scale, location) = (about["unreal"]["scale"][2].as_f64().unwrap(), about["unreal"]["location_z"].as_f64());
+    let found_m = ((number - 32_768.0) / 128.0 * scale + location.unwrap()) / 100.0;
+    let wanted_m = bake(&[Map::Height], landscape, 17, Format::R16)
+        .terrain
+        .height_m(crate::sphere::LatLon::from_degrees(50.0, -3.0).direction());
+    let half_m = 0.5 * scale / 128.0 / 100.0;
+    assert!((found_m - wanted_m).abs() <= 1.01 * half_m, "{found_m} {wanted_m}");
+}
+
+#[test]
+fn a_quadtree_has_all_its_tiles_with_aprons_and_many_strips_do_not_fill_the_stack() {
+    let tree = Projection::Quadtree(Quadtree { levels: 4, apron: 1 });
+    let bake = bake(&[Map::Height], tree, 8, Format::R16);
+    let folder = tempfile::tempdir().unwrap();
+    let Outcome::Done(paths) = bake.run(folder.path(), &|_| true).unwrap() else { panic!("it was not done") };
+    assert_eq!(paths.len(), 2046);
+    let about: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("height.json")).unwrap()).unwrap();
+    assert_eq!(about["file"], "height/{level}/{face}_{x}_{y}.r16");
+    let keys = ["levels", "apron", "tile_size", "width"].map(|key| about[key].as_u64().unwrap());
+    assert_eq!(keys, [4, 1, 8, 10]);
+    let tile = |name: &str| numbers(&fs::read(folder.path().join("height").join(name)).unwrap());
+    let [min, max] = ["min_m", "max_m"].map(|key| about[key].as_f64().unwrap());
+    for (face, x, y) in [(0, 3, 4), (3, 0, 15), (5, 15, 7)] {
+        let node = crate::sphere::NodeId { level: 4, face: crate::sphere::Face::ALL[face], x, y };
+        let found = tile(&format!("4/{}_{x}_{y}.r16", node.face.name()));
+        for (row, column) in [(0, 0), (4, 7), (9, 3)] {
+            let share = |pixel: i32| (f64::from(pixel) - 0.5) / 8.0;
+            let wanted_m = bake.terrain.height_m(node.direction(share(column), 1.0 - share(row)));
+            let found_m = min + f64::from(found[(row * 10 + column) as usize]) / 65_535.0 * (max - min);
+            assert!((found_m - wanted_m).abs() < 0.51 * (max - min) / 65_535.0 + 1e-3, "{found_m} {wanted_m}");
+        }
+    }
+    // Neighbours: the apron of one is the border of the other.
+    let (left, right) = (tile("4/pos_x_3_4.r16"), tile("4/pos_x_4_4.r16"));
+    assert!((1..9).all(|row| left[row * 10 + 9] == right[row * 10 + 1]));
 }

@@ -2,7 +2,7 @@
 
 use super::area::{DetailArgs, tell_slow};
 use super::{Failure, args, load, maps, tell};
-use crate::bake::{Bake, Format, MAX_SIZE, Map, Outcome, Projection, Region, Shard};
+use crate::bake::{Bake, Format, Landscape, MAX_SIZE, Map, Outcome, Projection, Quadtree, Region, Shard};
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
@@ -32,12 +32,23 @@ pub(super) struct Args {
     )]
     what: Vec<Map>,
     /// equirect: the whole globe in one picture. cube: six faces of a cube texture. region: a square about --lat and
-    /// --lon, azimuthal equidistant
-    #[arg(long = "as", value_name = "PROJECTION", default_value = "equirect", value_parser = ["equirect", "cube", "region"])]
+    /// --lon, azimuthal equidistant. landscape: the same square in --tiles x --tiles tiles that share the vertices of
+    /// their borders, as Unreal imports them. quadtree: the globe as tiles of all levels up to --levels, with aprons
+    #[arg(long = "as", value_name = "PROJECTION", default_value = "equirect", value_parser = ["equirect", "cube", "region", "landscape", "quadtree"])]
     projection: String,
-    /// Width in pixels of the map, or of a face
-    #[arg(long, value_name = "N", default_value = "2048", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_SIZE)))]
-    size: u32,
+    /// Width in pixels of the map, of a face or of a tile [default: 2048; of a tile of a landscape 1009, of a quadtree
+    /// 256]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_SIZE)))]
+    size: Option<u32>,
+    /// Tiles along each side of a landscape [default: 1]
+    #[arg(long, value_name = "N")]
+    tiles: Option<u32>,
+    /// The finest level of a quadtree, which has 2^N tiles along each side of the six faces [default: 3]
+    #[arg(long, value_name = "N")]
+    levels: Option<u8>,
+    /// Pixels of the neighbours around each tile of a quadtree [default: 1]
+    #[arg(long, value_name = "N")]
+    apron: Option<u32>,
     /// png8, png16, tiff16 and r16 are whole numbers that run linearly between min and max of the JSON; exr and tiff
     /// are floats of 32 bits, exr16 of 16; tiff is georeferenced; r16 has no header; ktx2 is a texture with mip levels
     #[arg(
@@ -53,7 +64,7 @@ pub(super) struct Args {
         value_name = "DEG",
         allow_hyphen_values = true,
         value_parser = args::latitude,
-        required_if_eq("projection", "region")
+        required_if_eq_any([("projection", "region"), ("projection", "landscape")])
     )]
     lat: Option<f64>,
     #[arg(
@@ -62,11 +73,16 @@ pub(super) struct Args {
         value_name = "DEG",
         allow_hyphen_values = true,
         value_parser = args::longitude,
-        required_if_eq("projection", "region")
+        required_if_eq_any([("projection", "region"), ("projection", "landscape")])
     )]
     lon: Option<f64>,
     /// Length of a side of a region
-    #[arg(long, value_name = "KILOMETRES", value_parser = args::region, required_if_eq("projection", "region"))]
+    #[arg(
+        long,
+        value_name = "KILOMETRES",
+        value_parser = args::region,
+        required_if_eq_any([("projection", "region"), ("projection", "landscape")])
+    )]
     km: Option<f64>,
     #[command(flatten)]
     detail: DetailArgs,
@@ -83,18 +99,14 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
-    let projection = match (args.projection.as_str(), args.lat, args.lon, args.km) {
-        ("region", Some(lat_deg), Some(lon_deg), Some(side_km)) => {
-            Projection::Region(Region { lat_deg, lon_deg, side_km })
-        }
-        (_, Some(_), ..) | (_, _, Some(_), _) | (.., Some(_)) => {
-            return Err("--lat, --lon and --km are for --as region".to_owned().into());
-        }
-        ("cube", ..) => Projection::Cube,
-        _ => Projection::Equirect,
+    let projection = projection(args)?;
+    let usual = match projection {
+        Projection::Landscape(_) => Landscape::SIZE,
+        Projection::Quadtree(_) => Quadtree::SIZE,
+        _ => SIZE,
     };
     let terrain = Arc::new(maps::terrain(planet)?);
-    let mut bake = Bake::new(terrain, args.what.clone(), projection, args.size, args.format);
+    let mut bake = Bake::new(terrain, args.what.clone(), projection, args.size.unwrap_or(usual), args.format);
     bake.detail = args.detail.detail;
     bake.time_secs = args.time;
     bake.heights_m = args.range;
@@ -112,14 +124,49 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Tells a person at a terminal how much is done, if it takes long.
+/// Width of a picture, unless another one is asked for.
+const SIZE: u32 = 2048;
+
+fn projection(args: &Args) -> Result<Projection, Failure> {
+    let kind = args.projection.as_str();
+    let region = match (args.lat, args.lon, args.km) {
+        (Some(lat_deg), Some(lon_deg), Some(side_km)) => Some(Region { lat_deg, lon_deg, side_km }),
+        _ => None,
+    };
+    let lies_somewhere = args.lat.is_some() || args.lon.is_some() || args.km.is_some();
+    if lies_somewhere && !matches!(kind, "region" | "landscape") {
+        return Err("--lat, --lon and --km are for --as region and --as landscape".to_owned().into());
+    }
+    if args.tiles.is_some() && kind != "landscape" {
+        return Err("--tiles is for --as landscape".to_owned().into());
+    }
+    if (args.levels.is_some() || args.apron.is_some()) && kind != "quadtree" {
+        return Err("--levels and --apron are for --as quadtree".to_owned().into());
+    }
+    Ok(match (kind, region) {
+        ("region", Some(region)) => Projection::Region(region),
+        ("landscape", Some(region)) => Projection::Landscape(Landscape { region, tiles: args.tiles.unwrap_or(1) }),
+        ("quadtree", _) => {
+            Projection::Quadtree(Quadtree { levels: args.levels.unwrap_or(3), apron: args.apron.unwrap_or(1) })
+        }
+        ("cube", _) => Projection::Cube,
+        _ => Projection::Equirect,
+    })
+}
+
+/// Tells a person at a terminal how much of a bake is done, if it takes long.
 pub(super) fn told() -> impl Fn(f64) -> bool + Sync {
+    told_of("baked")
+}
+
+/// The same of other work: `done` is what has become of it.
+pub(super) fn told_of(what: &'static str) -> impl Fn(f64) -> bool + Sync {
     let (start, last) = (Instant::now(), AtomicU32::new(0));
     let is_read = std::io::stderr().is_terminal();
     move |done| {
         let percent = (done * 100.0) as u32;
         if is_read && start.elapsed() > PATIENCE && last.fetch_max(percent, Ordering::Relaxed) < percent {
-            eprint!("\rbaked: {percent}%{}", if percent < 100 { "" } else { "\n" });
+            eprint!("\r{what}: {percent}%{}", if percent < 100 { "" } else { "\n" });
         }
         true
     }

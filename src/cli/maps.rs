@@ -1,5 +1,6 @@
 //! `tellus maps`: the world maps of presets, solved ahead; and the folder in which this program keeps its own.
 
+use super::bake::told_of;
 use super::{Failure, load, tell};
 use crate::terrain::{MapStore, Terrain};
 use std::path::PathBuf;
@@ -27,7 +28,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     for file in &args.files {
         let planet = load(file)?;
         let has_maps = planet.structure.is_some();
-        Terrain::load(Arc::new(planet), Some(store.clone()), &|_| true).map_err(|error| error.to_string())?;
+        let told = told_of("world maps solved");
+        Terrain::load(Arc::new(planet), Some(store.clone()), &told).map_err(|error| error.to_string())?;
+        told(1.0);
         if let Some(problem) = store.take_problem() {
             return Err(problem.into());
         }
@@ -51,7 +54,9 @@ pub(super) fn kept() -> Option<Arc<MapStore>> {
 /// The evaluator of a planet, with the world maps that the program keeps.
 pub(super) fn terrain(planet: Arc<crate::planet::Planet>) -> Result<Terrain, Failure> {
     let store = kept();
-    let terrain = Terrain::load(planet, store.clone(), &|_| true).map_err(|error| error.to_string())?;
+    let told = told_of("world maps solved");
+    let terrain = Terrain::load(planet, store.clone(), &told).map_err(|error| error.to_string())?;
+    told(1.0);
     if let Some(problem) = store.and_then(|store| store.take_problem()) {
         tell(&format!("warning: {problem}"));
     }

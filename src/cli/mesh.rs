@@ -50,6 +50,9 @@ pub(super) struct Args {
     /// Units of the file in a metre, such as 0.001 for kilometres
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = args::scale)]
     scale: f64,
+    /// Vertices as whole numbers of 16 and 8 bits: half as large. Readers must know KHR_mesh_quantization; .glb alone
+    #[arg(long)]
+    quantize: bool,
     #[command(flatten)]
     detail: DetailArgs,
 }
@@ -69,6 +72,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         skirt_m: args.skirt,
         scale: args.scale,
         detail: args.detail.detail,
+        is_quantized: args.quantize,
         ..MeshBake::new(area, cells, format)
     };
     mesh.check(&planet)?;

@@ -27,6 +27,7 @@ const MOST_LINKS: usize = 40;
 
 /// A preset that could not be loaded.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum LoadError {
     /// The file could not be read.
     #[error("{}: {source}", path.display())]
@@ -54,6 +55,7 @@ fn lines(file: &str, problems: &[Problem]) -> String {
 /// A preset that could not be saved.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {message}", path.display())]
+#[non_exhaustive]
 pub struct SaveError {
     /// The file.
     pub path: PathBuf,
@@ -85,6 +87,27 @@ impl Planet {
         let planet = parsed(file, text)?;
         checked(file, text, &planet)?;
         Ok(planet)
+    }
+
+    /// Reads and checks a preset from text, and its pictures from memory: of an asset pack, say. `fetch` gives the bytes
+    /// of the PNG or OpenEXR file at a path, as it is written in the preset, or says why it cannot.
+    ///
+    /// ```
+    /// use tellus::planet::Planet;
+    ///
+    /// let preset = std::fs::read_to_string("planets/pallor.ron")?; // of the pack
+    /// let planet = Planet::from_pack("pallor.ron", &preset, |path| Err(format!("{} is not packed", path.display())))?;
+    /// assert_eq!(planet.name, "Pallor"); // which has no pictures
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_pack(
+        file: &str,
+        text: &str,
+        fetch: impl FnMut(&Path) -> Result<Vec<u8>, String>,
+    ) -> Result<Planet, LoadError> {
+        let mut planet = Planet::from_text(file, text)?;
+        let problems = planet.load_pictures_from(fetch);
+        if problems.is_empty() { Ok(planet) } else { Err(all_placed(file, text, problems)) }
     }
 
     /// The text of the preset, with comments. Stable: the text of a loaded text is the text.

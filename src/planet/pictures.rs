@@ -71,6 +71,23 @@ impl Planet {
 
     /// Reads all missing pictures. Returns what is wrong with those that could not be read; their layers stay flat.
     pub fn load_pictures(&mut self) -> Vec<(ParamPath, String)> {
+        self.load_pictures_with(|key, budget| key.load(budget))
+    }
+
+    /// As [`Planet::load_pictures`], from the bytes of PNG or OpenEXR files that `fetch` gives for paths as they are
+    /// written in the preset. Files on the disk are not touched. See [`Planet::from_pack`].
+    pub fn load_pictures_from(
+        &mut self,
+        mut fetch: impl FnMut(&Path) -> Result<Vec<u8>, String>,
+    ) -> Vec<(ParamPath, String)> {
+        self.set_folder(Path::new(""));
+        self.load_pictures_with(|key, budget| key.decode(&fetch(&key.file)?, budget))
+    }
+
+    fn load_pictures_with(
+        &mut self,
+        mut load: impl FnMut(&PictureKey, &mut Budget) -> Result<Arc<Picture>, String>,
+    ) -> Vec<(ParamPath, String)> {
         let mut budget = self.picture_budget();
         // A file that failed for one layer is not tried again for the next.
         let mut failed: Vec<(PictureKey, String)> = Vec::new();
@@ -78,7 +95,7 @@ impl Planet {
         for (path, key) in self.missing_pictures() {
             let loaded = key.and_then(|key| match failed.iter().find(|(other, _)| *other == key) {
                 Some((_, problem)) => Err(problem.clone()),
-                None => match key.load(&mut budget) {
+                None => match load(&key, &mut budget) {
                     Ok(picture) => Ok((key, picture)),
                     Err(problem) => {
                         failed.push((key, problem.clone()));

@@ -4,6 +4,7 @@ use std::fmt;
 
 /// A problem of a preset.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Problem {
     /// Line, from 1; 0 if the problem has no location in the text.
     pub line: usize,

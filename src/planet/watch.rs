@@ -55,6 +55,10 @@ impl PresetWatch {
             return None;
         }
         let planet = Planet::load(&self.path);
+        match &planet {
+            Ok(planet) => log::info!("{}: loaded again: {}", self.path.display(), planet.name),
+            Err(error) => log::warn!("{error}"),
+        }
         // The preset may refer to other pictures now.
         if let Ok(planet) = &planet {
             self.files.follow(pictures(planet).into_iter().chain([self.path.clone()]));

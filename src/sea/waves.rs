@@ -61,6 +61,7 @@ pub struct Waves {
 
 /// The surface of the sea at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct WaterSurface {
     /// Height above the reference sphere, metres.
     pub height_m: f64,

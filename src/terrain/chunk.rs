@@ -21,6 +21,7 @@ pub struct ChunkGrid {
 
 /// A square of ground as a triangle mesh.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Chunk {
     /// Vertices row by row from the south west, in the local frame of the grid.
     pub positions_m: Vec<Vec3>,

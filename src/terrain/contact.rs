@@ -40,6 +40,7 @@ pub struct Capsule {
 
 /// Where a capsule and the ground are nearest.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Contact {
     /// Distance between the surfaces. Negative: how far the capsule must move along the normal to be free.
     pub gap_m: f64,
@@ -51,6 +52,7 @@ pub struct Contact {
 
 /// What a capsule that moves meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sweep {
     /// Share of the motion until it touches the ground, 0 to 1.
     pub share: f64,

@@ -16,6 +16,7 @@ const NEAR_M: f64 = 0.1;
 
 /// A closed line of equal height. Higher ground lies to its left.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Contour {
     /// Its points; the last is the first.
     pub points: Vec<LatLon>,

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 /// What a layer does at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct LayerEffect {
     /// Product of the layer's masks: 0 is off, 1 is on. 0 for a layer that is off.
     pub mask: f64,

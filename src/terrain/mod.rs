@@ -68,6 +68,7 @@ pub use contours::Contour;
 pub use curve_inputs::{CurveInput, CurveInputs};
 pub use effects::LayerEffect;
 pub use height::curve_at;
+pub use raycast::RayLimits;
 
 use crate::simd::Simd;
 use biome::CompiledBiomes;
@@ -137,15 +138,22 @@ impl Terrain {
         go_on: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<Option<Self>, InvalidPlanet> {
         let (fields, mut work) = (CellFields::default(), MapWork::default());
+        let begun = std::time::Instant::now();
         let mut terrain = Self::try_draft(planet, &World { store, ..World::default() })?;
         while !terrain.has_final_maps() {
-            let done = terrain.world().progress(&terrain.map_inputs);
+            let done = terrain.map_progress();
             match terrain.with_next_map(&fields, &|| go_on(done), &mut work) {
                 Some(next) => terrain = next,
                 None => return Ok(None),
             }
         }
+        log::debug!("{}: ready in {:.2} s", terrain.planet().name, begun.elapsed().as_secs_f64());
         Ok(Some(terrain))
+    }
+
+    /// Share of the world maps that is solved, 0 to 1.
+    pub(crate) fn map_progress(&self) -> f64 {
+        self.world().progress(&self.map_inputs)
     }
 
     /// As [`Terrain::try_new`]: waits for the finest world maps.

@@ -28,6 +28,7 @@ pub struct Search {
 
 /// A place with the property.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Place {
     /// Unit direction.
     pub dir_planet: DVec3,

@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 /// The rivers, lakes and basins of a planet, on the finest grid that is solved. Smaller tributaries are not in it:
 /// queries of points find them.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Rivers {
     /// The greatest discharge at the mouth first; of equal ones the lowest id.
     pub courses: Vec<Course>,
@@ -22,6 +23,7 @@ pub struct Rivers {
 
 /// A river from source to mouth. It follows the branch that carries most water; the others are rivers that join it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Course {
     /// The id that [`super::River`] has along it.
     pub id: u64,
@@ -35,6 +37,7 @@ pub struct Course {
 
 /// A point of a river's centre line.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CoursePoint {
     /// The location.
     pub place: LatLon,
@@ -62,6 +65,7 @@ pub enum Mouth {
 
 /// A lake.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Lake {
     /// The id that a sample in the lake has.
     pub id: u32,
@@ -84,6 +88,7 @@ impl Lake {
 
 /// The land that drains to one mouth.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Basin {
     /// The id that a sample in the basin has.
     pub id: u32,

@@ -22,6 +22,7 @@ const TASK: usize = 1024;
 
 /// The surface at one point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Sample {
     /// Height of the ground above the reference sphere (below the sea too).
     pub height_m: f64,

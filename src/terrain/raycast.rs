@@ -24,6 +24,44 @@ const TOLERANCE_M: f64 = 1e-5;
 /// Most steps of the search for the crossing; halving any step of a march this often ends below the tolerance.
 const MAX_SEARCH: usize = 60;
 
+/// What a ray meets, and how far it goes. By default it meets the ground and the sea at any distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RayLimits {
+    /// Metres from the origin at which the ray begins: what is nearer is not met.
+    pub from_m: f64,
+    /// Metres from the origin at which the ray ends; infinite for no end.
+    pub to_m: f64,
+    /// Whether the sea's surface stops the ray. If not, it goes on to the ground below.
+    pub meets_sea: bool,
+}
+
+impl Default for RayLimits {
+    fn default() -> Self {
+        Self { from_m: 0.0, to_m: f64::INFINITY, meets_sea: true }
+    }
+}
+
+impl RayLimits {
+    /// Limits with another beginning, metres.
+    pub fn from_m(mut self, from_m: f64) -> Self {
+        self.from_m = from_m;
+        self
+    }
+
+    /// Limits with another end, metres.
+    pub fn to_m(mut self, to_m: f64) -> Self {
+        self.to_m = to_m;
+        self
+    }
+
+    /// Limits of a ray that passes the sea.
+    pub fn through_sea(mut self) -> Self {
+        self.meets_sea = false;
+        self
+    }
+}
+
 impl Terrain {
     /// Distance in metres along a ray from `origin_planet_m` to the ground or to the sea's surface, whichever is
     /// nearer. `None` if the ray meets neither, if the origin is infinite or NaN, or if the direction is zero, infinite
@@ -36,17 +74,33 @@ impl Terrain {
 
     /// As [`Terrain::raycast`], with the caller's scratch.
     pub fn raycast_with(&self, origin_planet_m: DVec3, dir_planet: DVec3, scratch: &mut Scratch) -> Option<f64> {
+        self.raycast_within(origin_planet_m, dir_planet, &RayLimits::default(), scratch)
+    }
+
+    /// As [`Terrain::raycast`], within limits and with the caller's scratch. The distance counts from the origin, and
+    /// lies between the limits. A ray that begins in the ground meets it there. `None` also where limits are NaN or
+    /// end before they begin.
+    pub fn raycast_within(
+        &self,
+        origin_planet_m: DVec3,
+        dir_planet: DVec3,
+        limits: &RayLimits,
+        scratch: &mut Scratch,
+    ) -> Option<f64> {
         if !origin_planet_m.is_finite() || !dir_planet.is_finite() || dir_planet == DVec3::ZERO {
             return None;
         }
         let (origin_m, dir) = (origin_planet_m, unit(dir_planet));
         let radius_m = self.planet().radius_m();
-        let sea_m = self.planet().sea_level_m().unwrap_or(f64::MIN);
+        let sea_m = self.planet().sea_level_m().filter(|_| limits.meets_sea).unwrap_or(f64::MIN);
         let top_m = radius_m + self.height_bounds_m().1.max(sea_m).max(0.0) + 1.0;
         let (enter_m, leave_m) = sphere_hits(origin_m, dir, top_m)?;
+        let (start_m, end_m) = (enter_m.max(0.0).max(limits.from_m), leave_m.min(limits.to_m));
+        if !(limits.from_m <= limits.to_m && start_m <= end_m) {
+            return None;
+        }
         let mut ray = Ray { terrain: self, origin_m, dir, radius_m, sea_m, scratch };
 
-        let start_m = enter_m.max(0.0);
         let mut above = ray.point(start_m);
         if above.clearance_m <= 0.0 {
             return Some(start_m);
@@ -56,11 +110,11 @@ impl Terrain {
         for _ in 0..MAX_BATCHES {
             let (last, below) = ray.march(above, fall.max(0.0));
             if let Some(below) = below {
-                return Some(ray.crossing(last, below));
+                return Some(ray.crossing(last, below)).filter(|away_m| *away_m <= end_m);
             }
             fall = (above.clearance_m - last.clearance_m) / (last.t_m - above.t_m);
             above = last;
-            if above.t_m > leave_m {
+            if above.t_m > end_m {
                 return None;
             }
         }

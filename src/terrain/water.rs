@@ -14,6 +14,7 @@ use glam::DVec3;
 
 /// A river near a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct River {
     /// The same from source to mouth for a river that [`Terrain::rivers`] lists; one for each reach of small
     /// tributaries. It holds for the world maps that serve: another number of grids has other ids.

@@ -12,30 +12,15 @@
 //! the tiles is computed again. A structure that changed has a slice with drafts of its maps first, which has the grace
 //! period, too.
 
-use super::cache::{Cache, DEFAULT_BUDGET_BYTES};
-use super::horizon::HorizonFinder;
-use super::refine::{Cut, refine};
-use super::{BuildStats, Memory, Surface, find_detail};
+use super::cache::DEFAULT_BUDGET_BYTES;
+use super::worker::Worker;
+use super::{Memory, Surface};
 use crate::lod::View;
-use crate::lod::tile::{DetailTile, Tile};
-use crate::planet::{InvalidPlanet, Planet};
-use crate::terrain::Terrain;
-use crate::terrain::coarse::CellFields;
-use crate::world::{KeepGoing, MapStore, World};
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use crate::planet::Planet;
+use crate::world::MapStore;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
-
-/// Time limit of the first slice of a request: about two frames at 60 Hz.
-const FIRST_SLICE: Duration = Duration::from_millis(30);
-/// Time for which the first slice runs even if a newer request is waiting.
-const GRACE: Duration = Duration::from_millis(25);
-/// Time for which detail is computed even if another view is waiting.
-const DETAIL_GRACE: Duration = Duration::from_millis(15);
-/// Time limit of each further slice. Something is on screen by then, and fewer swaps disturb less.
-const NEXT_SLICE: Duration = Duration::from_millis(80);
+use std::time::Instant;
 
 /// Builds surfaces in the background. The newest planet and views win; stale work is dropped.
 pub struct Builder {
@@ -51,11 +36,14 @@ pub struct BuilderOptions {
     pub budget_bytes: usize,
     /// Where world maps are kept from one process to the next.
     pub maps: Option<Arc<MapStore>>,
+    /// The threads that work, such as a game's own; None for rayon's global pool, which has one for each core. The
+    /// builder's own thread only waits for them.
+    pub pool: Option<Arc<rayon::ThreadPool>>,
 }
 
 impl Default for BuilderOptions {
     fn default() -> Self {
-        Self { budget_bytes: DEFAULT_BUDGET_BYTES, maps: None }
+        Self { budget_bytes: DEFAULT_BUDGET_BYTES, maps: None, pool: None }
     }
 }
 
@@ -71,64 +59,127 @@ impl BuilderOptions {
         self.maps = maps;
         self
     }
+
+    /// Options with these threads.
+    ///
+    /// ```
+    /// use std::sync::Arc;
+    /// use tellus::rayon::ThreadPoolBuilder;
+    /// use tellus::tiles::{Builder, BuilderOptions};
+    ///
+    /// // A game that leaves two threads to the terrain.
+    /// let pool = Arc::new(ThreadPoolBuilder::new().num_threads(2).build()?);
+    /// let builder = Builder::with_options(BuilderOptions::default().pool(pool), || {});
+    /// # Ok::<(), tellus::rayon::ThreadPoolBuildError>(())
+    /// ```
+    pub fn pool(mut self, pool: Arc<rayon::ThreadPool>) -> Self {
+        self.pool = Some(pool);
+        self
+    }
+}
+
+/// How much of the newest request of a [`Builder`] is done.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct BuildProgress {
+    /// Share of its world maps that is solved, 0 to 1. A planet without a structure has small ones.
+    pub maps: f64,
+    /// Its views.
+    pub views: usize,
+    /// Views that have a surface of it, perhaps a coarse one.
+    pub begun: usize,
+    /// Views whose tiles are all built.
+    pub tiled: usize,
+    /// Views that have their horizon angles and detail textures, too.
+    pub finished: usize,
+}
+
+impl BuildProgress {
+    /// Whether nothing is left to do.
+    pub fn is_finished(&self) -> bool {
+        self.finished == self.views
+    }
+
+    /// One number for a bar: the mean of the shares of maps, and of views that are begun, tiled and finished.
+    pub fn share(&self) -> f64 {
+        if self.is_finished() {
+            return 1.0;
+        }
+        let done = (self.begun + self.tiled + self.finished) as f64 / self.views as f64;
+        0.25 * (self.maps + done)
+    }
 }
 
 #[derive(Default)]
-struct Shared {
+pub(super) struct Shared {
     state: Mutex<State>,
-    changed: Condvar,
+    pub(super) changed: Condvar,
     /// Number of the newest request. Work compares its own number to learn whether it is still wanted.
     newest: AtomicU64,
     /// Number of the newest request whose planet differs from the one before.
     newest_planet: AtomicU64,
+    paused: AtomicBool,
 }
 
 #[derive(Default)]
-struct State {
+pub(super) struct State {
     request: Option<Request>,
     /// As many as the newest request has.
-    views: Vec<Progress>,
-    memory: Memory,
-    error: Option<String>,
-    closing: bool,
+    pub(super) views: Vec<Progress>,
+    pub(super) memory: Memory,
+    /// Share of the world maps that is solved.
+    pub(super) maps: f64,
+    pub(super) error: Option<String>,
+    pub(super) closing: bool,
+    /// Whether no slice is begun.
+    paused: bool,
 }
 
 /// What there is for one view. Requests are known by their numbers.
 #[derive(Default)]
-struct Progress {
-    surface: Option<Arc<Surface>>,
+pub(super) struct Progress {
+    pub(super) surface: Option<Arc<Surface>>,
     /// The newest request that the view had a slice of.
-    begun: u64,
+    pub(super) begun: u64,
     /// The newest request whose tiles are all built, with final world maps.
-    tiled: u64,
+    pub(super) tiled: u64,
     /// The newest request that is finished or was given up.
-    finished: u64,
+    pub(super) finished: u64,
 }
 
 #[derive(Clone)]
-struct Request {
-    planet: Arc<Planet>,
-    views: Vec<View>,
-    asked: Instant,
-    number: u64,
+pub(super) struct Request {
+    pub(super) planet: Arc<Planet>,
+    pub(super) views: Vec<View>,
+    pub(super) asked: Instant,
+    pub(super) number: u64,
 }
 
 impl Shared {
-    fn lock(&self) -> MutexGuard<'_, State> {
+    pub(super) fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn is_newest(&self, number: u64) -> bool {
+    pub(super) fn is_newest(&self, number: u64) -> bool {
         self.newest.load(Ordering::Relaxed) == number
     }
 
     /// Whether results for the planet of a request still serve, perhaps for another view.
-    fn is_newest_planet(&self, number: u64) -> bool {
+    pub(super) fn is_newest_planet(&self, number: u64) -> bool {
         self.newest_planet.load(Ordering::Relaxed) <= number
+    }
+
+    pub(super) fn is_paused(&self) -> bool {
+        self.paused.load(Ordering::Relaxed)
     }
 }
 
 impl State {
+    /// What to do now.
+    pub(super) fn next(&self) -> Option<(&Request, usize)> {
+        if self.paused { None } else { self.pending() }
+    }
+
     /// The request to work on, and which of its views.
     fn pending(&self) -> Option<(&Request, usize)> {
         let request = self.request.as_ref()?;
@@ -209,6 +260,38 @@ impl Builder {
         state.request.as_ref().is_none_or(|request| state.views.iter().all(|view| done(view, request.number)))
     }
 
+    /// How much of the newest request is done.
+    pub fn progress(&self) -> BuildProgress {
+        let state = self.shared.lock();
+        let Some(request) = &state.request else { return BuildProgress { maps: 1.0, ..BuildProgress::default() } };
+        let count = |is_done: &dyn Fn(&Progress) -> bool| state.views.iter().filter(|view| is_done(view)).count();
+        let number = request.number;
+        let finished = count(&|view| view.finished == number);
+        let begun = count(&|view| view.begun == number);
+        // What the worker told last may be of the planet before.
+        let maps = if begun > 0 { state.maps } else { 0.0 };
+        let tiled = count(&|view| view.tiled == number).max(finished);
+        BuildProgress { maps, views: state.views.len(), begun: begun.max(finished), tiled, finished }
+    }
+
+    /// Stops work, or lets it go on. Work that is under way ends within some milliseconds, and what it has made is
+    /// shown. Requests may be made meanwhile; they are busy until work goes on.
+    pub fn set_paused(&self, is_paused: bool) {
+        self.shared.paused.store(is_paused, Ordering::Relaxed);
+        self.shared.lock().paused = is_paused;
+        self.shared.changed.notify_all();
+    }
+
+    /// Drops the newest request, finished or not. The surfaces stay; the next request is worked on even if it is the
+    /// same.
+    pub fn cancel(&self) {
+        let mut state = self.shared.lock();
+        if state.request.take().is_some() {
+            let number = self.shared.newest.fetch_add(1, Ordering::Relaxed) + 1;
+            self.shared.newest_planet.store(number, Ordering::Relaxed);
+        }
+    }
+
     /// Changes the cache budget. It is kept from the next tile on.
     pub fn set_budget_bytes(&self, budget_bytes: usize) {
         self.budget_bytes.store(budget_bytes, Ordering::Relaxed);
@@ -234,221 +317,13 @@ impl Drop for Builder {
     }
 }
 
-/// The function that builds tiles; tests replace it.
-type Refine =
-    fn(&Arc<Terrain>, &View, &Cache, &mut Option<Cut>, Instant, BuildStats, &(dyn Fn() -> bool + Sync)) -> Surface;
-
-/// State of the worker thread.
-struct Worker {
-    cache: Cache,
-    budget_bytes: Arc<AtomicUsize>,
-    /// Where world maps are kept from one process to the next.
-    maps: Option<Arc<MapStore>>,
-    terrain: Option<Arc<Terrain>>,
-    /// Layer fields at the cells of world maps, kept for the next revision.
-    cell_fields: CellFields,
-    /// Whether the newest request had a first slice and still lacks a draft.
-    owes_draft: bool,
-    /// Number of the request that the newest slice worked for.
-    request: u64,
-    views: Vec<ViewWork>,
-    refine: Refine,
-}
-
-/// Work on one view.
-#[derive(Default)]
-struct ViewWork {
-    /// Number of the request.
-    request: u64,
-    /// What it has taken so far.
-    stats: BuildStats,
-    /// The finished tiles, while their horizon angles and detail textures are computed.
-    complete: Option<(Surface, Option<HorizonFinder>)>,
-    /// The last finished LOD cut.
-    cut: Option<Cut>,
-}
-
-impl Worker {
-    fn new(options: BuilderOptions) -> Self {
-        let budget_bytes = Arc::new(AtomicUsize::new(options.budget_bytes));
-        Self {
-            cache: Cache::with_budget(budget_bytes.clone()),
-            budget_bytes,
-            maps: options.maps,
-            terrain: None,
-            cell_fields: CellFields::default(),
-            owes_draft: false,
-            request: 0,
-            views: Vec::new(),
-            refine,
-        }
-    }
-
-    fn work(&mut self, shared: &Shared, wake: &dyn Fn()) {
-        loop {
-            let (request, index) = {
-                let mut state = shared.lock();
-                loop {
-                    if state.closing {
-                        return;
-                    }
-                    if let Some((request, index)) = state.pending() {
-                        break (request.clone(), index);
-                    }
-                    state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
-                }
-            };
-            let slice = catch_unwind(AssertUnwindSafe(|| self.slice(shared, &request, index)));
-            let mut state = shared.lock();
-            let gone_wrong = match slice {
-                Ok(Ok((surface, done))) => {
-                    // A newer request may have fewer views.
-                    if let Some(view) = state.views.get_mut(index) {
-                        view.begun = request.number;
-                        if surface.complete {
-                            view.tiled = request.number;
-                        }
-                        if done {
-                            view.finished = request.number;
-                        }
-                        view.surface = Some(Arc::new(surface));
-                    }
-                    None
-                }
-                Ok(Err(invalid)) => Some(invalid.to_string()),
-                Err(panic) => {
-                    // The state may be inconsistent.
-                    self.cache.clear();
-                    self.cell_fields.clear();
-                    self.terrain = None;
-                    self.views.clear();
-                    Some(text_of(panic.as_ref()))
-                }
-            };
-            if gone_wrong.is_some() {
-                state.views.iter_mut().for_each(|view| view.finished = request.number);
-            }
-            state.error = gone_wrong.map(|why| format!("This planet could not be built: {why}"));
-            state.memory = self.cache.memory();
-            drop(state);
-            wake();
-        }
-    }
-
-    /// Builds a surface of one view. Returns whether it has everything that the request asks for: first all tiles, then
-    /// their detail.
-    fn slice(&mut self, shared: &Shared, request: &Request, index: usize) -> Result<(Surface, bool), InvalidPlanet> {
-        let begun = Instant::now();
-        let mut terrain = self.compile(&request.planet)?;
-        if std::mem::replace(&mut self.request, request.number) != request.number {
-            self.cache.begin_request();
-        }
-        self.views.resize_with(request.views.len(), ViewWork::default);
-        let before = std::mem::take(&mut self.views[index]);
-        let is_first = before.request != request.number;
-        let mut work = if is_first {
-            ViewWork { request: request.number, cut: before.cut, ..ViewWork::default() }
-        } else {
-            before
-        };
-        let planet_wanted = || shared.is_newest_planet(request.number);
-        let (mut begun, mut limits) = (begun, [Duration::ZERO, NEXT_SLICE]);
-        if is_first {
-            work.stats.compile_secs = begun.elapsed().as_secs_f64();
-            limits = [GRACE, FIRST_SLICE];
-        }
-        // A draft is short work, and is shown even if a newer request is waiting. The first slice of a request has one
-        // if the request before was superseded before its draft.
-        let owed = std::mem::replace(&mut self.owes_draft, is_first && terrain.wants_draft());
-        let draft = (owed || !is_first).then(|| terrain.with_draft_maps(&self.cell_fields, &mut work.stats.maps));
-        if let Some(draft) = draft.flatten() {
-            self.owes_draft = false;
-            terrain = self.serve(draft);
-            (begun, limits) = (Instant::now(), [GRACE, NEXT_SLICE]);
-        } else if !is_first {
-            terrain = self.solve_maps(terrain, &planet_wanted, &mut work.stats);
-        }
-        let keep_going = || {
-            let (elapsed, [grace, limit]) = (begun.elapsed(), limits);
-            elapsed < grace || (elapsed < limit && shared.is_newest(request.number))
-        };
-        let view = &request.views[index];
-        // Once all tiles are built, only their detail is missing.
-        let (mut surface, finder) = match work.complete.take() {
-            Some(complete) => complete,
-            None => {
-                let tiles_before = work.stats.tiles_built;
-                let (cut, stats) = (&mut work.cut, work.stats);
-                let mut surface = (self.refine)(&terrain, view, &self.cache, cut, request.asked, stats, &keep_going);
-                surface.complete &= terrain.has_final_maps();
-                work.stats = surface.stats;
-                // Show the tiles before spending time on their detail.
-                if !surface.complete || is_first || surface.stats.tiles_built > tiles_before {
-                    work.complete = surface.complete.then(|| (surface.clone(), None));
-                    self.views[index] = work;
-                    return Ok((surface, false));
-                }
-                (surface, None)
-            }
-        };
-        let mut finder = finder.unwrap_or_else(|| HorizonFinder::new(&surface, view));
-        let (known, keep) = (|id| self.cache.horizon(id), |tile: &Arc<_>| self.cache.keep_horizon(tile));
-        // While the camera moves, each view gives some time to detail that serves the next view, too; an edit gives
-        // none.
-        let keep_going = || keep_going() || (begun.elapsed() < DETAIL_GRACE && planet_wanted());
-        let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going, &planet_wanted);
-        let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
-        let done = find_detail(&mut surface, view, &keep, &keep_going, &planet_wanted) && has_horizons;
-        work.stats = surface.stats;
-        work.complete = (!done).then(|| (surface.clone(), Some(finder)));
-        self.views[index] = work;
-        Ok((surface, done))
-    }
-
-    /// Compiles a planet. World maps of the revision before serve until [`Worker::solve_maps`].
-    fn compile(&mut self, planet: &Arc<Planet>) -> Result<Arc<Terrain>, InvalidPlanet> {
-        if let Some(terrain) = self.terrain.as_ref().filter(|terrain| Arc::ptr_eq(terrain.planet(), planet)) {
-            return Ok(terrain.clone());
-        }
-        profiling::scope!("compile");
-        let first = || World { store: self.maps.clone(), ..World::default() };
-        let world = self.terrain.as_ref().map_or_else(first, |before| before.world().clone());
-        Ok(self.serve(Terrain::try_draft(planet.clone(), &world)?))
-    }
-
-    /// Solves the next level of the world maps. Returns the same terrain if `wanted` said no.
-    fn solve_maps(&mut self, terrain: Arc<Terrain>, wanted: &KeepGoing<'_>, stats: &mut BuildStats) -> Arc<Terrain> {
-        let next = terrain.with_next_map(&self.cell_fields, wanted, &mut stats.maps);
-        stats.octave_samples += self.cell_fields.take_octave_samples();
-        // With a small budget, tiles need the room more.
-        if self.cell_fields.bytes() > self.cache.budget_bytes() / 8 {
-            self.cell_fields.clear();
-        }
-        next.map_or(terrain, |next| self.serve(next))
-    }
-
-    /// Makes a terrain the current one. Tiles whose content keys stay the same stay valid.
-    fn serve(&mut self, terrain: Terrain) -> Arc<Terrain> {
-        let terrain = Arc::new(terrain);
-        self.cache.serve(&terrain);
-        self.cache.set_aside(self.cell_fields.bytes());
-        self.terrain = Some(terrain.clone());
-        terrain
-    }
-}
-
-/// The message of a panic.
-fn text_of(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<String>().cloned();
-    text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
-        .unwrap_or_else(|| "an unknown error".to_owned())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lod::{Quality, opening};
-    use std::sync::atomic::AtomicBool;
+    use crate::tiles::refine::refine;
+    use crate::tiles::worker::Refine;
+    use std::time::Duration;
 
     #[test]
     fn a_panic_gives_up_one_planet_and_is_told() {
@@ -457,8 +332,9 @@ mod tests {
             assert!(!BROKEN.load(Ordering::Relaxed), "the ground gave way");
             refine(terrain, view, cache, cut, asked, stats, keep_going)
         };
-        let builder =
-            Builder::start(Worker { refine: refine_or_panic, ..Worker::new(BuilderOptions::default()) }, || {});
+        let mut worker = Worker::new(BuilderOptions::default());
+        worker.refine = refine_or_panic;
+        let builder = Builder::start(worker, || {});
         let planet = Arc::new(Planet::default());
         let view = |side_px| opening::opening_view(&planet, [side_px, 64], Quality::Low);
         let settle = || {
@@ -474,6 +350,58 @@ mod tests {
         builder.request(&planet, &view(65));
         settle();
         assert_eq!(builder.error(), None);
+        assert!(builder.surface().is_some_and(|surface| surface.complete));
+    }
+    fn wait_for(is_so: impl Fn() -> bool) {
+        let begun = Instant::now();
+        while !is_so() {
+            assert!(begun.elapsed() < Duration::from_secs(60), "it never came");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn the_games_own_threads_do_the_work_and_rest_when_they_are_told() {
+        static STRANGERS: AtomicUsize = AtomicUsize::new(0);
+        let refine_here: Refine = |terrain, view, cache, cut, asked, stats, keep_going| {
+            let name = std::thread::current().name().map(str::to_owned);
+            let is_own = name.is_some_and(|name| name.starts_with("game-")) && rayon::current_num_threads() == 2;
+            STRANGERS.fetch_add(usize::from(!is_own), Ordering::Relaxed);
+            refine(terrain, view, cache, cut, asked, stats, keep_going)
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).thread_name(|i| format!("game-{i}"));
+        let options = BuilderOptions::default().pool(Arc::new(pool.build().unwrap()));
+        let mut worker = Worker::new(options);
+        worker.refine = refine_here;
+        let builder = Builder::start(worker, || {});
+        let planet = Arc::new(Planet::default());
+        let view = opening::opening_view(&planet, [64, 64], Quality::Low);
+        assert!(builder.progress().is_finished() && builder.progress().share() == 1.0);
+        builder.set_paused(true);
+        builder.request(&planet, &view);
+        std::thread::sleep(Duration::from_millis(50));
+        let progress = builder.progress();
+        assert!(builder.is_busy() && builder.surface().is_none(), "it did not rest");
+        assert_eq!((progress.views, progress.begun, progress.share()), (1, 0, 0.0));
+        builder.set_paused(false);
+        wait_for(|| !builder.is_busy());
+        let progress = builder.progress();
+        assert_eq!((progress.maps, progress.tiled, progress.finished), (1.0, 1, 1));
+        assert_eq!(STRANGERS.load(Ordering::Relaxed), 0);
+    }
+
+    #[test]
+    fn a_request_that_is_cancelled_is_dropped_and_can_be_made_again() {
+        let builder = Builder::new(|| {});
+        let planet = Arc::new(Planet::default());
+        let view = opening::opening_view(&planet, [64, 64], Quality::Low);
+        builder.set_paused(true);
+        builder.request(&planet, &view);
+        builder.cancel();
+        assert!(!builder.is_busy() && builder.progress().is_finished());
+        builder.set_paused(false);
+        builder.request(&planet, &view);
+        wait_for(|| !builder.is_busy());
         assert!(builder.surface().is_some_and(|surface| surface.complete));
     }
 }

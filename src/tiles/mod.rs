@@ -5,7 +5,7 @@
 //! - `detail`: detail textures; `horizon`: horizon angles
 //! - `cache`: tiles of earlier requests, whole or as inputs for stages
 //! - `refine`: the LOD cut of a view; `sew`: seams between its tiles
-//! - [`builder`]: surfaces in the background
+//! - [`builder`]: surfaces in the background; `worker`: its thread
 //! - `stats`: time and memory
 pub mod builder;
 mod cache;
@@ -17,8 +17,9 @@ mod mesh;
 mod refine;
 mod sew;
 mod stats;
+mod worker;
 
-pub use builder::{Builder, BuilderOptions};
+pub use builder::{BuildProgress, Builder, BuilderOptions};
 pub use cache::DEFAULT_BUDGET_BYTES;
 pub use horizon::HorizonWork;
 pub use refine::budget_tiles;
@@ -42,6 +43,7 @@ use std::time::Instant;
 
 /// A complete set of tiles that covers the whole planet without a gap. The renderer draws it.
 #[derive(Clone)]
+#[non_exhaustive]
 pub struct Surface {
     /// The terrain that the tiles were made with.
     pub terrain: Arc<Terrain>,
@@ -61,6 +63,7 @@ pub struct Surface {
 
 /// A leaf of the LOD cut: a tile and its neighbourhood.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Leaf {
     /// The mesh.
     pub tile: Arc<Tile>,

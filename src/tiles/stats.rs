@@ -7,6 +7,7 @@ use std::time::Instant;
 
 /// What building a surface took, over all slices of its request.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct BuildStats {
     /// Tiles in the surface.
     pub tiles: usize,
@@ -36,6 +37,7 @@ type PerStage = [StageWork; Stage::ALL.len()];
 
 /// What one stage took, on all threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct StageWork {
     /// Number of runs: one for each tile, and for [`Stage::Field`] one for each layer of each tile.
     pub runs: usize,
@@ -111,6 +113,7 @@ impl Work {
 
 /// Memory use of the builder.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Memory {
     /// Bytes in tiles, their inputs, and the layer fields behind world maps.
     pub used_bytes: usize,

@@ -43,19 +43,24 @@ fn about(folder: &Path, name: &str) -> Value {
 
 /// The answers of `tellus sample` at locations.
 pub(crate) fn sampled(places: &[(f64, f64)]) -> Vec<Value> {
+    sampled_of(LAYERED, places)
+}
+
+/// The same of a preset.
+pub(crate) fn sampled_of(preset: &str, places: &[(f64, f64)]) -> Vec<Value> {
     let mut input = String::new();
     for (lat, lon) in places {
         writeln!(input, "{lat},{lon}").unwrap();
     }
-    let output = command(&["sample", LAYERED, "--points", "-"]).write_stdin(input).output().unwrap();
+    let output = command(&["sample", preset, "--points", "-"]).write_stdin(input).output().unwrap();
     assert_eq!(output.stderr, b"");
     String::from_utf8(output.stdout).unwrap().lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
-/// Pixels spread over a picture, the corners among them.
-fn pixels(width: usize, height: usize) -> Vec<(usize, usize)> {
+/// A thousand pixels of a picture, the corners among them.
+pub(crate) fn pixels(width: usize, height: usize) -> Vec<(usize, usize)> {
     let corners = [(0, 0), (width - 1, 0), (0, height - 1), (width - 1, height - 1)];
-    let spread = (0..60_usize).map(|i| (i * 7919 % width, (i * 104_729 + i * i) % height));
+    let spread = (0..996_usize).map(|i| (i * 7919 % width, (i * 104_729 + i * i) % height));
     corners.into_iter().chain(spread).collect()
 }
 
@@ -65,7 +70,7 @@ fn equirect(width: usize, height: usize, (x, y): (usize, usize)) -> (f64, f64) {
 }
 
 /// What `tellus sample` says of a map.
-fn expected(map: &str, answer: &Value, palette: &[Value], place: (f64, f64)) -> Vec<f64> {
+pub(crate) fn expected(map: &str, answer: &Value, palette: &[Value], place: (f64, f64)) -> Vec<f64> {
     let number = |key: &str| answer[key].as_f64().unwrap_or_else(|| panic!("{key}: {answer}"));
     let normal = || -> Vec<f64> { answer["normal"].as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect() };
     match map {
@@ -365,7 +370,7 @@ fn what_cannot_be_baked_or_written_is_said() {
     refused(2, &["--size", "65538"], "65538 is not in 2..=65536");
     refused(2, &["--what", "heights"], "[possible values: height, normal,");
     refused(2, &["--format", "jpg"], "[possible values: png8, png16, exr,");
-    refused(2, &["--as", "mercator"], "[possible values: equirect, cube, region]");
+    refused(2, &["--as", "mercator"], "[possible values: equirect, cube, region, landscape, quadtree]");
     refused(2, &["--as", "region"], "--lat <DEG>");
     refused(2, &["--shard", "4/3"], "write I/N with I from 1 to N");
     refused(2, &["--range", "5,1"], "write MIN,MAX in metres");
@@ -373,6 +378,10 @@ fn what_cannot_be_baked_or_written_is_said() {
     refused(1, &["--what", "height,discharge"], "Layered has no structure, so it has no rivers; leave it out");
     refused(1, &["--what", "normal", "--format", "r16"], "r16 holds one");
     refused(1, &["--lat", "5"], "--lat, --lon and --km are for --as region");
+    refused(2, &["--as", "landscape"], "--lat <DEG>");
+    refused(1, &["--tiles", "2"], "--tiles is for --as landscape");
+    refused(1, &["--apron", "2"], "--levels and --apron are for --as quadtree");
+    refused(1, &["--as", "quadtree", "--levels", "9"], "9 levels are out of range; use 0 to 7");
     let (status, told) = run(&["bake", "no.ron", "-o", out_text]);
     assert!(status == 1 && told.starts_with("error: no.ron: ") && !out.exists(), "{told}");
     let (status, told) = run(&["bake", LAYERED]);

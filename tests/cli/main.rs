@@ -2,6 +2,8 @@
 //!
 //! - `bake`: maps against `tellus sample`; `decode`: readers of their files
 //! - `commands`: answers, messages, exit status
+//! - `disk`: disks that are full or read-only
+//! - `readback`: every map, format and projection
 //! - `rivers`: rivers as GeoJSON, many points
 //! - `mesh`: meshes against `tellus sample`
 //! - `house`: the length of files and comments
@@ -13,10 +15,13 @@
 mod bake;
 mod commands;
 mod decode;
+#[cfg(target_os = "linux")]
+mod disk;
 #[cfg(unix)]
 mod hostile;
 mod house;
 mod mesh;
+mod readback;
 mod readme;
 mod rivers;
 mod system;

@@ -46,10 +46,24 @@ impl Glb {
         let values: Vec<f64> = match accessor["componentType"].as_u64().unwrap() {
             5126 => bytes.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes).into()).collect(),
             5125 => bytes.as_chunks().0.iter().map(|bytes| u32::from_le_bytes(*bytes).into()).collect(),
-            5123 => bytes.as_chunks().0.iter().map(|bytes| f64::from(u16::from_le_bytes(*bytes)) / 65_535.0).collect(),
+            5123 => {
+                let one = if accessor["normalized"] == true { 65_535.0 } else { 1.0 };
+                bytes.as_chunks().0.iter().map(|bytes| f64::from(u16::from_le_bytes(*bytes)) / one).collect()
+            }
+            5120 => bytes.iter().map(|byte| f64::from(byte.cast_signed()) / 127.0).collect(),
             other => panic!("component {other}"),
         };
-        let elements: Vec<_> = values.chunks_exact(components).map(<[f64]>::to_vec).collect();
+        // Elements may be padded to a multiple of four bytes.
+        let stride = self.json["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize]["byteStride"].as_u64();
+        let padded = stride.map_or(components, |stride| {
+            stride as usize
+                / match accessor["componentType"].as_u64() {
+                    Some(5120) => 1,
+                    Some(5123) => 2,
+                    _ => 4,
+                }
+        });
+        let elements: Vec<_> = values.chunks_exact(padded).map(|element| element[..components].to_vec()).collect();
         assert_eq!(elements.len() as u64, accessor["count"].as_u64().unwrap());
         elements
     }
@@ -167,6 +181,68 @@ fn a_region_has_textures_and_water_apart() {
 }
 
 #[test]
+fn whole_numbers_are_within_half_a_step_of_samples() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mesh.glb");
+    let own = |node: &Value, key: &str| DVec3::from_slice(&numbers_of(&node[key]));
+    // A globe in kilometres: its squares meet on one lattice.
+    write(&path, &["--spacing", "200000", "--scale", "0.001", "--quantize", "--skirt", "1000"]);
+    let glb = Glb::read(&path);
+    assert_eq!(glb.json["extensionsRequired"], serde_json::json!(["KHR_mesh_quantization"]));
+    let mut step_m = 0.0;
+    for name in ["pos_x", "neg_y", "pos_z"] {
+        let node = glb.nodes()[name];
+        let primitive = glb.primitive(node);
+        let (scale, corner) = (own(node, "scale"), own(node, "translation"));
+        let positions = glb.vectors(&primitive["attributes"]["POSITION"]);
+        assert!(positions.iter().all(|p| p.round() == *p && p.min_element() >= 0.0 && p.max_element() <= 65_535.0));
+        let surface = &positions[..53 * 53];
+        let planet_frame = surface.iter().step_by(3).map(|p| (*p * scale + corner) * 1000.0);
+        let planet_frame: Vec<_> = planet_frame.map(|p| DVec3::new(p.x, -p.z, p.y)).collect();
+        step_m = scale.x * 1000.0;
+        check_heights(&planet_frame, 0.5 * step_m * 3.0_f64.sqrt() + 0.6);
+        let normals = glb.vectors(&primitive["attributes"]["NORMAL"]);
+        assert!(normals.iter().all(|normal| (normal.length() - 1.0).abs() < 0.007));
+    }
+    assert!(step_m > 100.0 && step_m < 300.0, "{step_m}");
+    // A region with its water: the step is a few centimetres.
+    let place = ["--lat", "15.5", "--lon", "-28.5", "--km", "3", "--spacing", "100", "--water", "apart", "--lods", "2"];
+    write(&path, &[&place[..], &["--quantize"]].concat());
+    let glb = Glb::read(&path);
+    let node = glb.nodes()["region_LOD1"];
+    let (scale, corner) = (own(node, "scale"), own(node, "translation"));
+    assert!(scale.x < 0.2, "{scale}");
+    let positions = glb.vectors(&glb.primitive(node)["attributes"]["POSITION"]);
+    let radius_m = radius_m();
+    let tangent = tellus::sphere::Tangent::at(LatLon::from_degrees(15.5, -28.5));
+    let level_m = Planet::load(Path::new(LAYERED)).unwrap().sea_level_m().unwrap();
+    let points = positions.iter().step_by(5).map(|p| {
+        let local = *p * scale + corner + DVec3::new(0.0, radius_m, 0.0);
+        // East, up, south in the frame of the mesh.
+        tangent.planet(DVec3::new(local.x, -local.z, local.y))
+    });
+    let points: Vec<DVec3> = points.collect();
+    let places: Vec<_> = points.iter().map(|point| LatLon::from_direction(*point).to_degrees()).collect();
+    for (answer, point) in sampled(&places).iter().zip(&points) {
+        let away_m = point.length() - radius_m - answer["height_m"].as_f64().unwrap();
+        // A slope carries half a step aside into the height.
+        assert!(away_m.abs() <= 3.0 * scale.x, "{away_m}");
+    }
+    if let Some(water) = glb.nodes().get("region_water_LOD0") {
+        let (scale, corner) = (own(water, "scale"), own(water, "translation"));
+        let sea = glb.vectors(&glb.primitive(water)["attributes"]["POSITION"]);
+        assert!(sea.iter().all(|p| {
+            let from_center_m = (*p * scale + corner + DVec3::new(0.0, radius_m, 0.0)).length();
+            (from_center_m - radius_m - level_m).abs() <= scale.x
+        }));
+    }
+}
+
+fn numbers_of(list: &Value) -> Vec<f64> {
+    list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+#[test]
 fn an_obj_names_its_materials_and_has_the_same_vertices() {
     let folder = tempfile::tempdir().unwrap();
     let (obj, glb) = (folder.path().join("region.obj"), folder.path().join("region.glb"));
@@ -216,6 +292,7 @@ fn what_cannot_be_written_is_refused_in_words() {
         (glb.clone(), &["--lat", "0", "--lon", "0", "--km", "90000"], "out of range"),
         (glb.clone(), &["--lods", "9"], "use 1 to 8"),
         (glb.clone(), &["--texture", "1"], "use 2 to"),
+        (at("mesh.obj"), &["--spacing", "1000000", "--quantize"], "use .glb"),
     ] {
         let (status, error) = run(&[&["mesh", LAYERED, "-o", &output], more].concat());
         assert!(status == 1 && error.contains(words), "{more:?}: {status} {error}");

@@ -273,3 +273,34 @@ fn no_random_planet_has_one() {
         assert!(planet.layers.iter().all(|layer| layer.shape.names()[layer.shape.index()] != "HeightMap"));
     }
 }
+
+#[test]
+fn a_preset_and_its_pictures_come_from_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    for (file, is_png) in [("globe.png", true), ("globe.exr", false)] {
+        let path = folder.path().join(file);
+        if is_png {
+            png16(&path, &equirectangular(64))
+        } else {
+            exr32(&path, &equirectangular(64))
+        }
+        let from_disk = loaded(folder.path(), file, PictureLayout::Equirectangular);
+        let (bytes, text) = (std::fs::read(&path).unwrap(), planet(file, PictureLayout::Equirectangular).to_text());
+        std::fs::remove_file(&path).unwrap();
+        let mut asked = Vec::new();
+        let packed = Planet::from_pack("pack.ron", &text, |path| {
+            asked.push(path.to_owned());
+            Ok(bytes.clone())
+        });
+        assert_eq!(asked, [Path::new(file)]);
+        let terrain = Terrain::try_new(Arc::new(packed.unwrap())).unwrap();
+        let dirs = directions(5, 200);
+        assert_eq!(terrain.heights_m(&dirs), from_disk.heights_m(&dirs), "{file}");
+        for (bytes, part) in
+            [(Err("is not packed".to_owned()), "is not packed"), (Ok(b"none".to_vec()), "is neither PNG")]
+        {
+            let error = Planet::from_pack("pack.ron", &text, |_| bytes.clone()).unwrap_err().to_string();
+            assert!(error.starts_with("pack.ron:") && error.contains(part), "{error}");
+        }
+    }
+}

@@ -14,7 +14,7 @@ use tellus::planet::{
 };
 use tellus::simd::Simd;
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
-use tellus::terrain::{Scratch, Terrain, Wanted};
+use tellus::terrain::{RayLimits, Scratch, Terrain, Wanted};
 use tellus::tiles::{Builder, Surface, build_now, build_over};
 
 /// A mask by the noise of another layer.
@@ -258,6 +258,31 @@ fn a_ray_meets_the_ground_where_the_ground_is() {
         assert!((hit - 5000.0).abs() < 0.01, "{hit}");
         assert_eq!(terrain.raycast(dir * (radius_m + 50_000.0), dir), None);
     }
+}
+
+#[test]
+fn a_ray_keeps_its_limits_and_passes_the_sea_if_it_is_told_to() {
+    let terrain = Terrain::try_new(Arc::new(planet())).unwrap();
+    let (radius_m, sea_m) = (terrain.planet().radius_m(), terrain.planet().sea_level_m().unwrap());
+    let (mut scratch, mut wet) = (Scratch::default(), 0);
+    for dir in directions(1, 60) {
+        let ground_m = terrain.height_m(dir);
+        let eye_m = dir * (radius_m + ground_m.max(sea_m) + 5000.0);
+        let mut cast = |limits: RayLimits| terrain.raycast_within(eye_m, -dir, &limits, &mut scratch);
+        let limits = RayLimits::default;
+        assert_eq!(cast(limits()), terrain.raycast(eye_m, -dir));
+        assert_eq!(cast(limits().to_m(4999.0)), None);
+        assert!(cast(limits().to_m(5001.0)).is_some());
+        // A ray that begins below the surface meets it there.
+        assert_eq!(cast(limits().from_m(6000.0).to_m(7000.0)), Some(6000.0));
+        for wrong in [limits().from_m(2.0).to_m(1.0), limits().from_m(f64::NAN), limits().to_m(f64::NAN)] {
+            assert_eq!(cast(wrong), None, "{wrong:?}");
+        }
+        let bed_m = cast(limits().through_sea()).unwrap();
+        assert!((bed_m - (eye_m.length() - radius_m - ground_m)).abs() < 0.01, "{bed_m}");
+        wet += usize::from(ground_m < sea_m);
+    }
+    assert!(wet > 10, "{wet}");
 }
 
 /// The surface once the builder has finished every request.

@@ -122,6 +122,21 @@ fn tiles_are_baked_into_a_folder() {
 }
 
 #[test]
+fn tiles_have_whole_numbers_and_subtrees_if_they_are_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = open(vec![Some(folder.path().to_owned())]);
+    let tiles = TilesChoice { levels: 1, cells: 4, texture_px: None, ..BakeSettings::default().tiles };
+    set(&mut harness, BakeSettings { product: Product::Tiles, tiles, ..BakeSettings::default() });
+    click(&mut harness, "Whole numbers");
+    click(&mut harness, "Implicit");
+    click(&mut harness, "Bake into folder…");
+    until(&mut harness, "the tiles are there", |harness| harness.query_by_label_contains("Saved 30 tiles").is_some());
+    assert_eq!(names(folder.path()), ["0", "1", "subtrees", "tiles.key", "tileset.json"]);
+    let tile = std::fs::read(folder.path().join("0/pos_x_0_0.glb")).unwrap();
+    assert!(tile.windows(21).any(|bytes| bytes == b"KHR_mesh_quantization"));
+}
+
+#[test]
 fn what_is_wrong_with_a_mesh_or_tiles_is_told_in_the_window() {
     let mut harness = open(vec![]);
     click(&mut harness, "Mesh");

@@ -6,7 +6,7 @@ use super::geometry::Geometry;
 use super::quantize;
 use super::surface::{WATER_OPACITY, WATER_ROUGHNESS};
 use super::textures::Textures;
-use super::{Piece, level_name};
+use super::{Piece, Steps, level_name};
 use crate::bake::BakeError;
 use crate::bake::sidecar::MADE_BY;
 use crate::planet::file::write_atomically_with;
@@ -35,16 +35,15 @@ const CHUNK_HEAD: usize = 8;
 const COVERAGE: f64 = 0.5;
 
 /// Writes the file. `about`: what the root tells; `origin`: where the origin of the pieces is, in the frame and the
-/// units of the file; `step`: if vertices are quantised, the units of the file in which positions of the pieces count.
+/// units of the file.
 pub(super) fn write(
     planet: &Planet,
     about: &Value,
     path: &Path,
     pieces: &[Piece],
     origin: DVec3,
-    step: Option<f64>,
 ) -> Result<(), BakeError> {
-    let mut document = Document::new(planet, about, step);
+    let mut document = Document::new(planet, about);
     if origin != DVec3::ZERO {
         document.nodes[0]["translation"] = json!(origin.to_array());
     }
@@ -191,13 +190,13 @@ struct Document<'a> {
     /// The nodes under the root.
     children: Vec<usize>,
     has_levels: bool,
-    /// Units of the file in one of the positions, if they are quantised.
-    step: Option<f64>,
+    /// Whether vertices of a piece are whole numbers.
+    is_quantized: bool,
     water_material: Value,
 }
 
 impl<'a> Document<'a> {
-    fn new(planet: &Planet, about: &Value, step: Option<f64>) -> Self {
+    fn new(planet: &Planet, about: &Value) -> Self {
         Self {
             parts: Vec::new(),
             length: 0,
@@ -209,29 +208,39 @@ impl<'a> Document<'a> {
             nodes: vec![json!({ "name": planet.name, "extras": about })],
             children: Vec::new(),
             has_levels: false,
-            step,
+            is_quantized: false,
             water_material: water_material(planet.water.as_ref()),
         }
     }
 
     fn add(&mut self, piece: &'a Piece) {
         let material = self.ground_material(piece);
-        self.add_levels(piece.name, &piece.levels, material, piece.textures.is_some());
+        self.is_quantized |= piece.steps.is_some();
+        self.add_levels(piece.name, &piece.levels, material, (piece.textures.is_some(), piece.steps.as_ref()));
         if !piece.water.is_empty() {
             let material = self.push_material(self.water_material.clone());
-            self.add_levels(&format!("{}_water", piece.name), &piece.water, material, false);
+            self.add_levels(&format!("{}_water", piece.name), &piece.water, material, (false, piece.steps.as_ref()));
         }
     }
 
-    /// A node for each level of detail. The first refers to the others.
-    fn add_levels(&mut self, name: &str, levels: &'a [Geometry], material: usize, is_textured: bool) {
+    /// A node for each level of detail. The first refers to the others. `is_textured`: whether there are tangents.
+    fn add_levels(
+        &mut self,
+        name: &str,
+        levels: &'a [Geometry],
+        material: usize,
+        (is_textured, steps): (bool, Option<&Steps>),
+    ) {
         let first = self.nodes.len();
         for (level, geometry) in levels.iter().enumerate() {
             let name = level_name(name, level, levels.len());
-            let primitive = self.primitive(geometry, material, is_textured);
+            let primitive = self.primitive(geometry, material, (is_textured, steps.is_some()));
             let mut node = json!({ "name": name, "mesh": self.meshes.len() });
-            if let Some(step) = self.step {
+            if let Some(Steps { step, corner }) = steps {
                 node["scale"] = json!([step, step, step]);
+                if *corner != DVec3::ZERO {
+                    node["translation"] = json!(corner.to_array());
+                }
             }
             self.nodes.push(node);
             self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
@@ -246,8 +255,12 @@ impl<'a> Document<'a> {
         }
     }
 
-    fn primitive(&mut self, geometry: &'a Geometry, material: usize, is_textured: bool) -> Value {
-        let is_quantized = self.step.is_some();
+    fn primitive(
+        &mut self,
+        geometry: &'a Geometry,
+        material: usize,
+        (is_textured, is_quantized): (bool, bool),
+    ) -> Value {
         let Geometry { positions, normals, uvs, tangents, colors, .. } = geometry;
         let mut parts = if is_quantized {
             vec![
@@ -357,7 +370,7 @@ impl<'a> Document<'a> {
         if self.has_levels {
             extensions.push("MSFT_lod");
         }
-        if self.step.is_some() {
+        if self.is_quantized {
             extensions.push(QUANTIZATION);
             document["extensionsRequired"] = json!([QUANTIZATION]);
         }

@@ -39,6 +39,7 @@ use crate::terrain::Terrain;
 use geometry::Geometry;
 use glam::DVec3;
 use patch::Patch;
+use quantize::Lattice;
 use serde_json::{Value, json};
 use square::Square;
 use std::f64::consts::FRAC_PI_2;
@@ -57,8 +58,9 @@ const SAMPLES: u64 = (textures::FINER * textures::FINER) as u64;
 /// Most levels of detail.
 const MAX_LEVELS: u32 = 8;
 
-/// A mesh that is to be written to a file.
+/// A mesh that is to be written to a file. Begin with [`MeshBake::new`]: there may be more fields.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MeshBake {
     /// The part of the planet.
     pub area: Area,
@@ -78,10 +80,13 @@ pub struct MeshBake {
     pub scale: f64,
     /// How much of a structure is in the mesh.
     pub detail: Detail,
+    /// Whether vertices are whole numbers of 16 and 8 bits (KHR_mesh_quantization), of [`MeshFormat::Glb`] alone.
+    pub is_quantized: bool,
 }
 
 /// The part of the planet that a mesh shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Area {
     /// All of it, as six squares.
     Globe,
@@ -91,6 +96,7 @@ pub enum Area {
 
 /// The kinds of file for meshes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MeshFormat {
     /// Binary glTF 2.0: one file.
     Glb,
@@ -100,6 +106,7 @@ pub enum MeshFormat {
 
 /// What becomes of the water of a planet in a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MeshWater {
     /// The mesh runs on the surface of the water, which is opaque.
     #[default]
@@ -156,6 +163,16 @@ struct Piece {
     /// The water over it, level by level, where that is a mesh of its own.
     water: Vec<Geometry>,
     textures: Option<Textures>,
+    /// How its positions count, if they are whole numbers.
+    steps: Option<Steps>,
+}
+
+/// Positions as whole numbers, in units of the file.
+struct Steps {
+    /// Length of one.
+    step: f64,
+    /// Where they count from.
+    corner: DVec3,
 }
 
 /// The name of a level of detail: that of the piece if it has one level alone.
@@ -179,6 +196,7 @@ impl MeshBake {
             skirt_m: 0.0,
             scale: 1.0,
             detail: Detail::All,
+            is_quantized: false,
         }
     }
 
@@ -236,25 +254,36 @@ impl MeshBake {
         let surface = Surface { terrain, water: self.water, detail: self.detail };
         let mut pieces = Vec::with_capacity(squares.len());
         for square in &squares {
-            let patch = Patch::new(square, self.cells, &surface, &progress);
+            let mut patch = Patch::new(square, self.cells, &surface, &progress);
             if progress.is_stopped() {
                 return Ok(Outcome::Stopped);
             }
+            let center_m = patch.center_m;
+            let lattice = self.is_quantized.then(|| {
+                let step_m = Lattice::step_m(side_m(&self.area, planet.radius_m()), self.skirt_m);
+                let lattice = Lattice::around(&patch, self.skirt_m, step_m);
+                lattice.snap(&mut patch);
+                lattice
+            });
             let textures = self.texture_px.map(|px| Textures::new(square, px, &patch, &surface, &progress));
             let textures = textures.transpose().map_err(|error| BakeError::file(path, error))?;
             if progress.is_stopped() {
                 return Ok(Outcome::Stopped);
             }
+            let scale = lattice.as_ref().map_or(self.scale, |lattice| lattice.step_m.recip());
             let strides = (0..self.levels).map(|level| 1_usize << level);
-            let water = strides.clone().filter_map(|stride| Geometry::water(&patch, stride, self.scale)).collect();
-            let levels = strides
-                .map(|stride| Geometry::new(&patch, stride, self.skirt_m, self.scale, textures.is_some()))
-                .collect();
-            pieces.push(Piece { name: square.name(), levels, water, textures });
+            let water = strides.clone().filter_map(|stride| Geometry::water(&patch, stride, scale)).collect();
+            let levels =
+                strides.map(|stride| Geometry::new(&patch, stride, self.skirt_m, scale, textures.is_some())).collect();
+            let steps = lattice.map(|lattice| Steps {
+                step: lattice.step_m * self.scale,
+                corner: (center_m + lattice.corner_m()) * self.scale,
+            });
+            pieces.push(Piece { name: square.name(), levels, water, textures, steps });
         }
         match self.format {
             MeshFormat::Glb => {
-                glb::write(planet, &self.about(planet), path, &pieces, DVec3::ZERO, None)?;
+                glb::write(planet, &self.about(planet), path, &pieces, DVec3::ZERO)?;
                 Ok(Outcome::Done(vec![path.to_owned()]))
             }
             MeshFormat::Obj => obj::write(self, planet, path, &pieces).map(Outcome::Done),
@@ -299,6 +328,9 @@ impl MeshBake {
         }
         if self.water == MeshWater::Apart && planet.water.is_none() && planet.structure.is_none() {
             return Err(format!("{} has neither a sea nor a structure, so it has no water to put apart", planet.name));
+        }
+        if self.is_quantized && self.format != MeshFormat::Glb {
+            return Err("an OBJ holds no whole numbers of 16 bits; use .glb".to_owned());
         }
         if !(self.skirt_m.is_finite() && self.skirt_m >= 0.0) {
             return Err(format!("a skirt of {} m is out of range; use 0 or more", self.skirt_m));

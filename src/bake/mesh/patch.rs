@@ -49,6 +49,15 @@ impl Patch {
         Self { side: vertices.len(), vertices, center_m }
     }
 
+    /// Least and greatest distance of water in a mesh of its own from the planet's centre, metres.
+    pub(super) fn water_m(&self) -> Option<[f64; 2]> {
+        let levels_m = self.vertices.iter().filter_map(Vertex::water_radius_m);
+        levels_m.fold(None, |found: Option<[f64; 2]>, level_m| {
+            let [least_m, most_m] = found.unwrap_or([level_m; 2]);
+            Some([least_m.min(level_m), most_m.max(level_m)])
+        })
+    }
+
     /// The vertex of a row and a column.
     pub(super) fn at(&self, row: usize, column: usize) -> &Vertex {
         &self.vertices[row * self.side + column]

@@ -29,9 +29,10 @@ impl Lattice {
         (SIDES * side_m + skirt_m) / (MOST - 2.0 * FREE)
     }
 
-    /// The lattice around a patch about the planet's centre and its skirt: that with `step_m`, or each second, third or
+    /// The lattice around a patch about the planet's centre, its water and its skirt: that with `step_m`, or each second, third or
     /// further point of it, if the relief is higher than the tile is wide.
     pub(super) fn around(patch: &Patch, skirt_m: f64, step_m: f64) -> Self {
+        let water_m = patch.water_m();
         let mut least = DVec3::INFINITY;
         let mut most = DVec3::NEG_INFINITY;
         for vertex in &patch.vertices {
@@ -39,6 +40,12 @@ impl Lattice {
             let below_m = position_m - position_m.normalize() * skirt_m;
             least = least.min(position_m).min(below_m);
             most = most.max(position_m).max(below_m);
+            // Water in a mesh of its own has these levels, and those between.
+            for level_m in water_m.into_iter().flatten() {
+                let level_m = position_m.normalize() * level_m;
+                least = least.min(level_m);
+                most = most.max(level_m);
+            }
         }
         let steps = (most - least).max_element() / step_m;
         let step_m = step_m * (steps / (MOST - 2.0 * FREE)).ceil().max(1.0);

@@ -13,7 +13,7 @@ use super::quantize::Lattice;
 use super::square::Square;
 use super::surface::Surface;
 use super::textures::Textures;
-use super::{MeshWater, Piece, SAMPLES, glb, has_final_maps};
+use super::{MeshWater, Piece, SAMPLES, Steps, glb, has_final_maps};
 use crate::bake::progress::Progress;
 use crate::bake::sidecar::of_planet;
 use crate::bake::{BakeError, Detail, Outcome, Region, make_folder};
@@ -46,6 +46,7 @@ const SKIRT: f64 = 1.0;
 
 /// A tileset that is to be written.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Tileset {
     /// The finest level; level 0 is a face of the cube sphere.
     pub levels: u8,
@@ -113,9 +114,7 @@ impl Tileset {
         let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
         let side = u64::from(self.cells) + 1;
         let progress = Progress::new(missing.len() as u64 * (side * side + texels), go_on);
-        missing.par_iter().with_max_len(1).try_for_each(|node| {
-            if progress.is_stopped() { Ok(()) } else { self.write(terrain, *node, &folder.join(uri(*node)), &progress) }
-        })?;
+        progress.each(&missing, |node, _| self.write(terrain, *node, &folder.join(uri(*node)), &progress))?;
         if progress.is_stopped() {
             return Ok(Outcome::Stopped);
         }
@@ -267,11 +266,13 @@ impl Tileset {
         let step_m = lattice.as_ref().map(|lattice| lattice.step_m);
         let scale = step_m.map_or(1.0, f64::recip);
         let levels = vec![Geometry::new(&patch, 1, skirt_m, scale, textures.is_some())];
-        let piece = Piece { name: square.name(), levels, water: Vec::new(), textures };
+        // The corner is the place of the root.
+        let steps = step_m.map(|step| Steps { step, corner: DVec3::ZERO });
+        let piece = Piece { name: square.name(), levels, water: Vec::new(), textures, steps };
         let mut about = json!({ "spacing_m": spacing_m });
         about["measures"] = json!(Measures::of(&patch, radius_m));
         let origin_m = lattice.map_or(square.turned(middle_planet_m), |lattice| lattice.corner_m());
-        glb::write(planet, &about, path, &[piece], origin_m, step_m)
+        glb::write(planet, &about, path, &[piece], origin_m)
     }
 
     /// The tileset, with the tiles of the faces.

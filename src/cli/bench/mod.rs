@@ -2,7 +2,7 @@
 //!
 //! - [`noise`]: million points a second, against fastnoise-lite
 //! - [`edits`]: time from an edit to the finished tiles
-//! - [`queries`]: time of heights, samples and rays
+//! - [`queries`]: time of heights, samples, rays, contacts and sweeps
 //! - [`bake`]: million pixels a second of a height map
 //! - [`sculpt`]: time and memory of thousands of ground edits
 //! - [`structure`]: time to solve plates, weather and rivers, and points a second with rivers
@@ -49,10 +49,12 @@ enum Part {
     Noise,
     /// The whole opening view of each shipped planet without a structure
     Rebuild,
-    /// Heights, samples and rays
+    /// Heights, samples, rays, contacts and sweeps
     Queries,
     /// Height maps of the globe, in files
     Bake,
+    /// A height map of 16k x 8k pixels, once: a minute or more, and 256 MB of disk. Not among all parts
+    LargeBake,
     /// Edits of two planets without a structure: the first, and the one whose tiles take longest
     Edits,
     /// Ten thousand ground edits
@@ -106,10 +108,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         report["rebuild"] = json!(rebuilds?);
     }
     if wants(Part::Queries) {
-        report["queries"] = queries::measure(first)?;
+        report["queries"] = json!([queries::measure(first)?, queries::measure(&Arc::new(shipped::default_planet()))?]);
     }
     if wants(Part::Bake) {
         report["bake"] = bake::measure(first)?;
+    }
+    if args.only == Some(Part::LargeBake) {
+        report["large_bake"] = bake::measure_large()?;
     }
     if wants(Part::Edits) {
         report["edits"] = json!(edits::measure(first, None));

@@ -91,6 +91,8 @@ pub struct MeshChoice {
     pub skirt_m: f64,
     /// Units of the file in a metre.
     pub scale: f64,
+    /// Whether vertices are whole numbers, of glTF alone.
+    pub is_quantized: bool,
 }
 
 /// What tiles are like.
@@ -106,6 +108,10 @@ pub struct TilesChoice {
     pub texture_px: Option<u32>,
     /// Whether tiles run on the water, or on the ground beneath.
     pub has_water: bool,
+    /// Whether vertices are whole numbers.
+    pub is_quantized: bool,
+    /// Whether subtree files tell of the tiles, instead of a list.
+    pub is_implicit: bool,
 }
 
 impl Default for BakeSettings {
@@ -128,8 +134,17 @@ impl Default for BakeSettings {
                 levels: 1,
                 skirt_m: 0.0,
                 scale: 1.0,
+                is_quantized: false,
             },
-            tiles: TilesChoice { levels: 4, in_region: false, cells: 64, texture_px: Some(128), has_water: true },
+            tiles: TilesChoice {
+                levels: 4,
+                in_region: false,
+                cells: 64,
+                texture_px: Some(128),
+                has_water: true,
+                is_quantized: false,
+                is_implicit: false,
+            },
         }
     }
 }
@@ -168,7 +183,8 @@ impl BakeSettings {
 
     /// The mesh. Without water on the planet there is none to put apart.
     pub fn mesh(&self, planet: &Planet) -> MeshBake {
-        let MeshChoice { of_region, spacing_m, format, texture_px, water, levels, skirt_m, scale } = self.mesh;
+        let MeshChoice { of_region, spacing_m, format, texture_px, water, levels, skirt_m, scale, is_quantized } =
+            self.mesh;
         let area = if of_region { Area::Region(self.region) } else { Area::Globe };
         let cells = MeshBake::cells_for(&area, planet.radius_m(), spacing_m, levels);
         let has_water = planet.water.is_some() || planet.structure.is_some();
@@ -180,16 +196,18 @@ impl BakeSettings {
             skirt_m,
             scale,
             detail: self.detail,
+            is_quantized: is_quantized && format == MeshFormat::Glb,
             ..MeshBake::new(area, cells, format)
         }
     }
 
     /// The tiles.
     pub fn tileset(&self) -> Tileset {
-        let TilesChoice { levels, in_region, cells, texture_px, has_water } = self.tiles;
+        let TilesChoice { levels, in_region, cells, texture_px, has_water, is_quantized, is_implicit } = self.tiles;
         let water = if has_water { MeshWater::Surface } else { MeshWater::None };
         let region = in_region.then_some(self.region);
-        Tileset { region, cells, texture_px, water, detail: self.detail, ..Tileset::new(levels) }
+        let detail = self.detail;
+        Tileset { region, cells, texture_px, water, detail, is_quantized, is_implicit, ..Tileset::new(levels) }
     }
 
     /// Whether the region matters.

@@ -10,6 +10,8 @@ use std::sync::Arc;
 
 /// Width of the small picture, pixels.
 const PREVIEW_PX: u32 = 288;
+/// Share of the progress of a bake in which the world maps of a structure are solved.
+const SOLVING: f64 = 0.2;
 
 /// The small picture of a map, made on another thread.
 #[derive(Default)]
@@ -92,8 +94,11 @@ impl Baking {
     ) -> Self {
         let (product, path) = (settings.product, to.to_owned());
         let work = move |go_on: GoOn<'_>| {
-            let terrain = Terrain::load(planet, store, &|_| go_on(0.0)).map_err(|error| error.to_string())?;
+            let solving = if planet.structure.is_some() { SOLVING } else { 0.0 };
+            let solved = |done: f64| go_on(solving * done);
+            let terrain = Terrain::load(planet, store, &solved).map_err(|error| error.to_string())?;
             let Some(terrain) = terrain else { return Ok(Outcome::Stopped) };
+            let go_on: GoOn<'_> = &|done| go_on(solving + (1.0 - solving) * done);
             let outcome = match settings.product {
                 Product::Maps => settings.bake(Arc::new(terrain), time_secs).run(&path, go_on),
                 Product::Mesh => settings.mesh(terrain.planet()).run(&terrain, &path, go_on),

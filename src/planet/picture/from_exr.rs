@@ -15,8 +15,7 @@ use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData};
 use rayon::prelude::*;
-use std::fs::File;
-use std::io::{BufReader, Read as _, Seek as _};
+use std::io::{BufRead, Read as _, Seek};
 
 /// Greatest absolute value of a float picture: metres at an amplitude of 1, far more than any planet needs.
 const MAX_VALUE: f32 = 1e6;
@@ -32,7 +31,11 @@ const LEAST_BLOCK_WORK: u64 = 32 << 10;
 const MAX_BLOCKS: u64 = MAX_WORK_BYTES / LEAST_BLOCK_WORK;
 
 /// Reads a picture; takes what it needs from the budget.
-pub(super) fn read(mut file: BufReader<File>, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
+pub(super) fn read(
+    mut file: impl BufRead + Seek,
+    layout: PictureLayout,
+    budget: &mut Budget,
+) -> Result<Picture, String> {
     let about = contained(|| {
         MetaData::read_from_buffered(file.by_ref().take(MAX_HEADER_BYTES), false).map_err(|error| broken(&error))
     })?;
@@ -153,7 +156,7 @@ fn check_blocks(header: &Header) -> Result<(), String> {
     }
 }
 
-fn blocks(file: BufReader<File>, source: &Source, layout: PictureLayout) -> Result<Canvas<f32>, String> {
+fn blocks(file: impl BufRead + Seek, source: &Source, layout: PictureLayout) -> Result<Canvas<f32>, String> {
     let reader = Reader::read_from_buffered(file, false).map_err(|error| broken(&error))?;
     let about = reader.meta_data().clone();
     let mut chunks = reader.all_chunks(false).map_err(|error| broken(&error))?;

@@ -3,15 +3,14 @@
 use super::budget::Budget;
 use super::canvas::{Canvas, Size};
 use super::pixels::{Picture, PictureLayout, Texels};
-use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, Seek};
 
 /// First column and row of each pass of an interlaced picture, and the steps from pixel to pixel and row to row.
 const PASSES: [[usize; 4]; 7] =
     [[0, 0, 8, 8], [4, 0, 8, 8], [0, 4, 4, 8], [2, 0, 4, 4], [0, 2, 2, 4], [1, 0, 2, 2], [0, 1, 1, 2]];
 
 /// Reads a picture; takes what it needs from the budget.
-pub(super) fn read(file: BufReader<File>, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
+pub(super) fn read(file: impl BufRead + Seek, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
     let mut decoder = png::Decoder::new(file);
     // Palettes become colours; fewer bits become 8.
     decoder.set_transformations(png::Transformations::EXPAND);
@@ -26,7 +25,7 @@ pub(super) fn read(file: BufReader<File>, layout: PictureLayout, budget: &mut Bu
     Ok(Picture { texels: Texels::Grey16(raster), hash, bytes })
 }
 
-fn rows(decoder: png::Decoder<BufReader<File>>, size: Size, layout: PictureLayout) -> Result<Canvas<u16>, String> {
+fn rows(decoder: png::Decoder<impl BufRead + Seek>, size: Size, layout: PictureLayout) -> Result<Canvas<u16>, String> {
     let mut canvas = Canvas::new(size, layout)?;
     let mut reader = decoder.read_info().map_err(|error| broken(&error))?;
     let (color, depth) = reader.output_color_type();

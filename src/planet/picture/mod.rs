@@ -47,6 +47,16 @@ impl PictureKey {
     pub fn load(&self, budget: &mut Budget) -> Result<Arc<Picture>, String> {
         known::load(&self.file, self.layout, budget)
     }
+
+    /// Reads the picture from the bytes of a PNG or OpenEXR file, such as an entry of an asset pack. Its size is taken
+    /// from the budget of the planet.
+    ///
+    /// # Errors
+    /// What is wrong with the bytes, and what would be right.
+    pub fn decode(&self, bytes: &[u8], budget: &mut Budget) -> Result<Arc<Picture>, String> {
+        let decoded = read::read_bytes(bytes, self.layout, budget);
+        decoded.map(Arc::new).map_err(|problem| format!("{} {problem}", self.file.display()))
+    }
 }
 
 /// A reference to a picture. A preset holds only the path.

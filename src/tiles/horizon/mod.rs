@@ -40,6 +40,7 @@ const NOTHING: f32 = -1e4;
 
 /// Statistics of computing horizon tiles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct HorizonWork {
     /// Tiles made.
     pub tiles: usize,

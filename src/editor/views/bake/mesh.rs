@@ -62,6 +62,9 @@ pub(super) fn form(ui: &mut egui::Ui, settings: &mut BakeSettings, state: &State
         });
     });
     ui.end_row();
+    if settings.mesh.format == MeshFormat::Glb {
+        rows::vertices(ui, &mut settings.mesh.is_quantized);
+    }
     rows::textures(ui, &mut settings.mesh.texture_px, &TEXTURES);
     if planet.water.is_some() || planet.structure.is_some() {
         ui.label("Water");

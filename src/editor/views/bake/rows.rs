@@ -65,3 +65,17 @@ pub(super) fn slow(ui: &mut egui::Ui, is_slow: bool) {
         ui.colored_label(ui.visuals().warn_fg_color, "All rivers between points so far apart take hours.");
     }
 }
+
+/// Whether vertices are floats or whole numbers.
+pub(super) fn vertices(ui: &mut egui::Ui, is_quantized: &mut bool) {
+    ui.label("Vertices");
+    ui.horizontal(|ui| {
+        for (is_whole, name, told) in [
+            (false, "Floats", "32 bits, for every reader"),
+            (true, "Whole numbers", "16 and 8 bits: half as large. Readers must know KHR_mesh_quantization"),
+        ] {
+            ui.selectable_value(is_quantized, is_whole, name).on_hover_text(told);
+        }
+    });
+    ui.end_row();
+}

@@ -49,6 +49,17 @@ pub(super) fn form(ui: &mut egui::Ui, settings: &mut BakeSettings, state: &State
         });
         ui.end_row();
     }
+    rows::vertices(ui, &mut settings.tiles.is_quantized);
+    ui.label("Index").on_hover_text("How a viewer learns which tiles there are");
+    ui.horizontal(|ui| {
+        for (is_implicit, name, told) in [
+            (false, "List", "All tiles in tileset.json, for every viewer"),
+            (true, "Implicit", "A binary file for each face, levels up to 10; viewers must read boxes from metadata"),
+        ] {
+            ui.selectable_value(&mut settings.tiles.is_implicit, is_implicit, name).on_hover_text(told);
+        }
+    });
+    ui.end_row();
 }
 
 pub(super) fn tell(ui: &mut egui::Ui, settings: &BakeSettings, planet: &Planet) {
