@@ -72,10 +72,10 @@ params! {
 }
 
 impl GroundEdit {
-    /// A new edit with this tool. The outlines of land are ragged.
+    /// A new edit with this tool. The outlines of land and of clouds are ragged.
     pub fn of(tool: Tool) -> Self {
         let raggedness = match tool {
-            Tool::Island(_) => 0.5,
+            Tool::Island(_) | Tool::Clouds(_) => 0.5,
             Tool::Mesa(_) => 0.3,
             Tool::Volcano(_) => 0.15,
             _ => 0.0,

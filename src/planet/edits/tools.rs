@@ -271,6 +271,6 @@ params! {
     /// `log-odds of the cover + 10 * amount * w`, for each layer of clouds that the planet has
     pub struct CloudPaint {
         /// How much cloudier it becomes: 1 is overcast, -1 is clear sky.
-        amount: f64 = 0.5, "Amount", Unit::None, linear(-1.0, 1.0), Stage::CloudMap;
+        amount: f64 = 0.25, "Amount", Unit::None, linear(-1.0, 1.0), Stage::CloudMap;
     }
 }
