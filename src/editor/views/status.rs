@@ -48,8 +48,8 @@ fn ground_text(under: &KnownPlace, has_air: bool) -> String {
     )
 }
 
-/// Right to left: the quality, and what the picture is doing. The figures behind it are in its tooltip and in the
-/// window of the performance.
+/// Right to left: the quality, what the picture is doing, and the time of the last edit. The figures behind it are in
+/// its tooltip and in the window of the performance.
 fn figures(ui: &mut egui::Ui, state: &State) {
     let viewport = &state.viewport;
     let quality = viewport.settings.quality.label();
@@ -61,6 +61,10 @@ fn figures(ui: &mut egui::Ui, state: &State) {
         _ => "idle".to_owned(),
     };
     ui.label(now).on_hover_ui(|ui| figures_of(ui, viewport));
+    if let Some(duration) = viewport.edit_clock.last() {
+        ui.label(format!("edit {:.0} ms", duration.as_secs_f64() * 1000.0))
+            .on_hover_text("From the last edit to its complete picture");
+    }
 }
 
 fn figures_of(ui: &mut egui::Ui, viewport: &Viewport) {
@@ -70,9 +74,6 @@ fn figures_of(ui: &mut egui::Ui, viewport: &Viewport) {
     );
     if let Some(secs) = viewport.frame_meter.interval_secs() {
         ui.label(format!("{:.1} ms from picture to picture", secs * 1000.0));
-    }
-    if let Some(duration) = viewport.edit_clock.last() {
-        ui.label(format!("{:.1} ms from the last edit to its picture", duration.as_secs_f64() * 1000.0));
     }
     if let Some(surface) = viewport.surface() {
         let (stats, drawn) = (surface.stats, viewport.stats());
