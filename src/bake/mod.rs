@@ -9,7 +9,8 @@
 //! goes on where it stopped, several machines can share one ([`Shard`]), memory does not grow with the size, and the
 //! range of 16 bits is known before the first pixel is written. Every way gives the same bytes.
 //!
-//! - `maps`: what can be baked; `projection`: where pixels lie; `pieces`: landscapes and quadtrees; `format`: kinds of file, and steps of their numbers
+//! - `maps`: what can be baked; `projection`: where pixels lie; `pieces`: landscapes and quadtrees; `format`: kinds of
+//!   file, and steps of their numbers
 //! - `occlusion`: ambient occlusion; `lights`: lights of settlements
 //! - `strips`: computes and keeps strips; `rows`: reads a map from them
 //! - `png`, `openexr`, `geotiff`, `ktx2`, `raw`: encoders; `sidecar`: the JSON beside a map

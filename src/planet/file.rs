@@ -89,8 +89,8 @@ impl Planet {
         Ok(planet)
     }
 
-    /// Reads and checks a preset from text, and its pictures from memory: of an asset pack, say. `fetch` gives the bytes
-    /// of the PNG or OpenEXR file at a path, as it is written in the preset, or says why it cannot.
+    /// Reads and checks a preset from text, and its pictures from memory: of an asset pack, say. `fetch` gives the
+    /// bytes of the PNG or OpenEXR file at a path, as it is written in the preset, or says why it cannot.
     ///
     /// ```
     /// use tellus::planet::Planet;

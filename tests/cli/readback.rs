@@ -187,12 +187,12 @@ fn every_map_of_a_cube_and_of_a_region() {
     };
     check(&preset, &maps, &at, &texels.iter().map(place).collect::<Vec<_>>(), 3);
     // A region with a river.
-    let region = ["--as", "region", "--lat", "20", "--lon", "-30", "--km", "900", "--size", "40", "--format", "exr"];
+    let region = ["--as", "region", "--lat", "1.1", "--lon", "24", "--km", "100", "--size", "40", "--format", "exr"];
     bake(&preset, folder, &maps, &region);
-    let (tangent, pixels) = (Tangent::at(LatLon::from_degrees(20.0, -30.0)), pixels(40, 40));
+    let (tangent, pixels) = (Tangent::at(LatLon::from_degrees(1.1, 24.0)), pixels(40, 40));
     let radius_km = Planet::load(&preset).unwrap().radius_km;
     let place = |&(x, y): &(usize, usize)| {
-        let [right, down] = [x, y].map(|at| (at as f64 + 0.5 - 20.0) * 22.5 / radius_km);
+        let [right, down] = [x, y].map(|at| (at as f64 + 0.5 - 20.0) * 2.5 / radius_km);
         LatLon::from_direction(tangent.direction(right, -down)).to_degrees()
     };
     let at = |map: &str| {

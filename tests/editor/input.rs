@@ -140,14 +140,14 @@ fn keys_stay_in_the_list_that_is_open() {
 
 #[test]
 fn menus_that_do_not_fit_scroll() {
-    let mut harness = app::open([800.0, 340.0], vec![]);
+    let mut harness = app::open([800.0, 240.0], vec![]);
     click(&mut harness, "View");
     harness.run_steps(5);
     let reach = |harness: &Editor| harness.get_by_label_contains("Light or dark").rect().bottom();
-    assert!(reach(&harness) > 340.0, "the menu is longer than the window");
+    assert!(reach(&harness) > 240.0, "the menu is longer than the window");
     harness.get_by_label_contains("Light or dark").scroll_to_me();
     harness.run_steps(40);
-    assert!(reach(&harness) <= 340.0, "{}", reach(&harness));
+    assert!(reach(&harness) <= 240.0, "{}", reach(&harness));
 }
 
 #[test]

@@ -63,7 +63,13 @@ fn the_variations() {
 
 #[test]
 fn a_bake() {
-    looks_as_it_did(Command::Bake, "bake");
+    let mut harness = app::open_without_planet([800.0, 500.0]);
+    send(&mut harness, Command::Bake);
+    harness.run_steps(5);
+    // Of maps there is a small picture, which comes when it is ready.
+    app::click(&mut harness, "3D tiles");
+    harness.run_steps(5);
+    is_same(&mut harness, "bake");
 }
 
 #[test]

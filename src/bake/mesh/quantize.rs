@@ -29,8 +29,8 @@ impl Lattice {
         (SIDES * side_m + skirt_m) / (MOST - 2.0 * FREE)
     }
 
-    /// The lattice around a patch about the planet's centre, its water and its skirt: that with `step_m`, or each second, third or
-    /// further point of it, if the relief is higher than the tile is wide.
+    /// The lattice around a patch about the planet's centre, its water and its skirt: that with `step_m`, or each
+    /// second, third or further point of it, if the relief is higher than the tile is wide.
     pub(super) fn around(patch: &Patch, skirt_m: f64, step_m: f64) -> Self {
         let water_m = patch.water_m();
         let mut least = DVec3::INFINITY;

@@ -10,7 +10,7 @@ use crate::editor::state::bake_settings::Product;
 use crate::editor::state::baking::Baking;
 use crate::editor::state::questions::{Asking, Replace};
 use eframe::egui;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Shows or hides the window. Until the user sets a region, it is where the camera looks.
@@ -113,9 +113,10 @@ pub fn poll(state: &mut State, ctx: &egui::Context) {
         }
         (Ok(Outcome::Done(files)), Product::Maps) => state.notices.say(format!("Saved {} maps in {to}", files.len())),
         (Ok(Outcome::Done(_)), Product::Mesh) => state.notices.say(format!("Saved {to}")),
-        // The first file is the list of the others.
+        // The other files list them.
         (Ok(Outcome::Done(files)), Product::Tiles) => {
-            state.notices.say(format!("Saved {} tiles in {to}", files.len().saturating_sub(1)));
+            let is_tile = |file: &&PathBuf| file.extension().is_some_and(|ending| ending == "glb");
+            state.notices.say(format!("Saved {} tiles in {to}", files.iter().filter(is_tile).count()));
         }
         (Ok(Outcome::Stopped | Outcome::Shard { .. }), Product::Mesh) => {
             state.notices.say(format!("Stopped; {to} was not written"));
