@@ -71,7 +71,7 @@ impl Planet {
 
     /// Reads all missing pictures. Returns what is wrong with those that could not be read; their layers stay flat.
     pub fn load_pictures(&mut self) -> Vec<(ParamPath, String)> {
-        self.load_pictures_with(|key, budget| key.load(budget))
+        self.load_pictures_with(PictureKey::load)
     }
 
     /// As [`Planet::load_pictures`], from the bytes of PNG or OpenEXR files that `fetch` gives for paths as they are

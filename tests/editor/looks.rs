@@ -62,17 +62,6 @@ fn the_variations() {
 }
 
 #[test]
-fn a_bake() {
-    let mut harness = app::open_without_planet([800.0, 500.0]);
-    send(&mut harness, Command::Bake);
-    harness.run_steps(5);
-    // Of maps there is a small picture, which comes when it is ready.
-    app::click(&mut harness, "3D tiles");
-    harness.run_steps(5);
-    is_same(&mut harness, "bake");
-}
-
-#[test]
 fn a_system() {
     let mut harness = app::open_without_planet([800.0, 500.0]);
     harness.state_mut().push(Action::System(SystemAction::Open(0)));

@@ -154,7 +154,7 @@ pub fn tell(ui: &egui::Ui, field: &egui::Response) {
     let ctx = ui.ctx().clone();
     ctx.request_repaint_after_secs(left_secs as f32);
     // Not over a question.
-    if ctx.memory(|memory| memory.top_modal_layer()).is_some_and(|modal| modal != ui.layer_id()) {
+    if ctx.memory(egui::Memory::top_modal_layer).is_some_and(|modal| modal != ui.layer_id()) {
         return;
     }
     egui::Tooltip::always_open(ctx, ui.layer_id(), field.id.with("refused"), field.rect).show(|ui| {
