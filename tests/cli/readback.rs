@@ -237,8 +237,8 @@ fn ambient_occlusion_is_what_the_horizon_of_samples_leaves_open() {
         let slope: DVec2 = (0..12).map(|k| DVec2::from_angle(around[k].1) * rise(k) / 6.0).sum();
         let normal = DVec3::new(-slope.x, -slope.y, 1.0).normalize();
         let mut open = 0.0;
-        for k in 0..12 {
-            let along = DVec2::from_angle(around[k].1);
+        for (k, (_, heading_rad)) in around.iter().enumerate().take(12) {
+            let along = DVec2::from_angle(*heading_rad);
             let steepest = (0..6).map(|n| rise(12 * n + k)).fold(slope.dot(along), f64::max);
             let (from, steps) = (steepest.atan(), 2000);
             let step = (FRAC_PI_2 - from) / f64::from(steps);

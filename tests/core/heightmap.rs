@@ -280,9 +280,9 @@ fn a_preset_and_its_pictures_come_from_memory() {
     for (file, is_png) in [("globe.png", true), ("globe.exr", false)] {
         let path = folder.path().join(file);
         if is_png {
-            png16(&path, &equirectangular(64))
+            png16(&path, &equirectangular(64));
         } else {
-            exr32(&path, &equirectangular(64))
+            exr32(&path, &equirectangular(64));
         }
         let from_disk = loaded(folder.path(), file, PictureLayout::Equirectangular);
         let (bytes, text) = (std::fs::read(&path).unwrap(), planet(file, PictureLayout::Equirectangular).to_text());
