@@ -31,6 +31,7 @@ impl<'a> Progress<'a> {
     pub(super) fn is_stopped(&self) -> bool {
         self.stopped.load(Ordering::Relaxed)
     }
+
     /// Does some work for each item in order, on all threads, until somebody says no or it fails.
     ///
     /// Each thread takes the next item. Dividing the list between threads would nest as deep as the list is long, with

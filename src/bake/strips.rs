@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 
 /// Most pixels of a strip, unless a single row has more.
 const STRIP_PIXELS: u32 = 1 << 17;
-/// Least number of strips of a bake that has so many rows, so that small bakes use all cores, too.
+/// Least number of strips of a bake, if it has as many rows: small bakes use all cores, too.
 const LEAST_STRIPS: u32 = 32;
 /// Pixels of one query. They form a block rather than a row: a thread then builds the river blocks around them once.
 const TASK: usize = 1024;

@@ -126,7 +126,10 @@ impl CloudMaps {
             false => (!drafts && self.ground_level > 0).then_some(self.least_level),
         };
         if let Some(level) = wanted {
-            Arc::make_mut(field).set_paint(planet);
+            // A new field has it already.
+            if self.paint != paint && !is_changed {
+                Arc::make_mut(field).set_paint(planet);
+            }
             let texels = ground_map(planet, field, SIDE >> level);
             (self.paint, self.ground_level) = (paint, level);
             self.write(queue, 0, level, texels);

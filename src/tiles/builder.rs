@@ -352,6 +352,7 @@ mod tests {
         assert_eq!(builder.error(), None);
         assert!(builder.surface().is_some_and(|surface| surface.complete));
     }
+
     fn wait_for(is_so: impl Fn() -> bool) {
         let begun = Instant::now();
         while !is_so() {

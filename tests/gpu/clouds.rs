@@ -3,7 +3,8 @@
 use crate::support::{Gpu, camera, earth, frame, gpu, inside_disc, lights, surface};
 use std::sync::Arc;
 use tellus::clouds::CloudField;
-use tellus::planet::{Clouds, Planet};
+use tellus::planet::edits::CloudPaint;
+use tellus::planet::{Clouds, EditPoint, GroundEdit, Planet, Tool};
 use tellus::sphere::spread;
 use tellus::terrain::Terrain;
 
@@ -61,6 +62,34 @@ fn a_draft_becomes_the_picture_proper() {
     assert_eq!(proper, draw(&mut gpu, &new, true), "what is whole stays whole");
     let [to_draft, to_old] = [&draft, &first].map(|picture| difference(&proper, picture));
     assert!(to_draft > 0.0 && to_draft < 0.5 * to_old, "{to_draft} {to_old}");
+}
+
+/// A stroke of painted clouds is drawn while it grows, and gone when it is undone; what is drawn is what a new renderer
+/// draws.
+#[test]
+fn painted_clouds_come_and_go() {
+    let planet = cloudy(Clouds::default());
+    let stroke = GroundEdit {
+        tool: Tool::Clouds(CloudPaint { amount: -1.0 }),
+        radius_km: 3000.0,
+        points: [EditPoint { latitude_deg: 10.0, longitude_deg: 10.0, ..EditPoint::default() }].into_iter().collect(),
+        ..GroundEdit::default()
+    };
+    let painted = Arc::new(Planet { edits: [stroke].into_iter().collect(), ..Planet::clone(&planet) });
+    let camera = camera(&planet, 10.0, 10.0, 13e6, 0.0, -90.0);
+    let mut gpu = gpu();
+    let draw = |gpu: &mut Gpu, planet: &Arc<Planet>, drafts: bool| {
+        let surface = surface(planet, &camera);
+        let mut frame = frame(&surface, planet, camera, (12.0, 0.0));
+        frame.drafts = drafts;
+        gpu.draw(&frame)
+    };
+    let before = draw(&mut gpu, &planet, false);
+    let draft = draw(&mut gpu, &painted, true);
+    let proper = draw(&mut gpu, &painted, false);
+    assert_eq!(proper, draw(&mut Gpu::new(), &painted, false));
+    assert!(difference(&proper, &before) > 3.0 * difference(&proper, &draft).max(0.3));
+    assert_eq!(draw(&mut gpu, &planet, false), before);
 }
 
 /// The more cover queries report, the brighter the disc.

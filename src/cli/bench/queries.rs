@@ -30,8 +30,8 @@ const FALL_M: f64 = 50.0;
 
 /// An entry of the `queries` list of the report. `*_us` are means over the globe in microseconds; `height_one_mps` is
 /// million points a second in a batch on one core, `height_all_mps` and `samples_batch_mps` on all. Medians over the
-/// runs. `fastnoise_lite_mps`: fastnoise-lite on
-/// one core, on the same points and with as many octaves as the layers of a height have at most.
+/// runs. `fastnoise_lite_mps`: fastnoise-lite on one core, on the same points and with as many octaves as the layers of
+/// a height have at most.
 pub(super) fn measure(planet: &Arc<Planet>) -> Result<Value, String> {
     let terrain = Terrain::try_new(planet.clone()).map_err(|error| error.to_string())?;
     let singles: Vec<DVec3> = spread(SINGLES).collect();

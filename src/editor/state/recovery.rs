@@ -14,7 +14,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 /// Least time between two writes: the most work that a crash can cost.
 const INTERVAL: Duration = Duration::from_secs(2);
@@ -52,12 +52,19 @@ impl Written {
 pub struct Orphan {
     /// Its file.
     pub file: PathBuf,
+    /// When it was written last.
+    pub kept: Option<SystemTime>,
     /// The planet, and the file that it belongs to.
     pub planet: Option<(Planet, Option<PathBuf>)>,
     /// The system, with whole paths of its presets, and the file that it belongs to.
     pub system: Option<(System, Option<PathBuf>)>,
     /// Held until the question about it is answered: no other editor asks meanwhile.
     _lock: Arc<File>,
+}
+
+/// When a file was written last.
+fn modified(file: &Path) -> Option<SystemTime> {
+    fs::metadata(file).and_then(|data| data.modified()).ok()
 }
 
 impl Recovery {
@@ -85,7 +92,8 @@ impl Recovery {
                 let system = read_system(&system_of(&file)).map(|system| (system, system_file));
                 let is_whole = (file.exists(), system_of(&file).exists()) == (planet.is_some(), system.is_some());
                 if is_whole {
-                    orphans.push(Orphan { file, planet, system, _lock: Arc::new(lock) });
+                    let kept = [file.clone(), system_of(&file)].iter().filter_map(|file| modified(file)).max();
+                    orphans.push(Orphan { file, kept, planet, system, _lock: Arc::new(lock) });
                 }
             } else {
                 own = Some((file, lock, lock_path));

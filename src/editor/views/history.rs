@@ -30,8 +30,9 @@ pub struct HistoryWindow {
     list: PickList,
     /// Steps done and all steps when the cursor was put on the current one; None while the window is closed.
     seen: Option<(usize, usize)>,
-    /// The planet for which `values` were found, and the values before and after each step in view.
-    values: (Option<Arc<Planet>>, HashMap<usize, Option<String>>),
+    /// The values before and after each step that was in view, and the planet of now for which they were found.
+    values: HashMap<usize, Option<String>>,
+    of: Option<Arc<Planet>>,
 }
 
 impl HistoryWindow {
@@ -48,13 +49,15 @@ impl HistoryWindow {
         if self.seen != Some((done, count)) {
             self.list.set_cursor(done);
             self.seen = Some((done, count));
-            self.values = Default::default();
+            self.values.clear();
         }
         let planet = state.document.planet();
-        if self.values.0.as_ref().is_none_or(|of| !Arc::ptr_eq(of, planet)) {
-            self.values = (Some(planet.clone()), HashMap::new());
+        if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, planet)) {
+            self.of = Some(planet.clone());
+            // The steps on both sides of it.
+            self.values.retain(|step, _| *step != done && *step + 1 != done);
         }
-        let known = &mut self.values.1;
+        let known = &mut self.values;
         let mut values_of = |row: usize| {
             let step = row.checked_sub(1)?;
             let find = || history.sides(step, planet).and_then(|(before, after)| differences::values(before, after));

@@ -73,9 +73,10 @@ fn chips(ui: &mut egui::Ui, rect: Rect, state: &State, commands: &mut Commands) 
         response.on_hover_text(format!("{name}: click to change")).accessible_name(format!("{name}: {now}"));
     }
     if view != DebugView::Shaded
-        && ui.button("Back to shaded").on_hover_text("Show the planet as it looks (key 1)").clicked()
+        && let Some(row) = commands::row(Command::Show(DebugView::Shaded))
+        && ui.button("Back to shaded").on_hover_text(row.tooltip).clicked()
     {
-        commands.send(Command::Show(DebugView::Shaded));
+        commands.send(row.command);
     }
     if let Some(told) = working(state) {
         let text = egui::RichText::new(told).color(INK).background_color(SHADE).size(11.5);

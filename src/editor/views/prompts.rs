@@ -230,15 +230,14 @@ fn named(orphan: &Orphan) -> String {
 
 /// The file that unsaved work belongs to, and the time since it was kept.
 fn origin(orphan: &Orphan) -> Vec<String> {
-    let of_planet = orphan.planet.as_ref().and_then(|(_, file)| file.as_ref());
-    let file = of_planet.or(orphan.system.as_ref().and_then(|(_, file)| file.as_ref()));
-    let file = match file {
-        Some(file) => format!("It belongs to {}. Undo then goes back to that file.", file.display()),
+    let planet_file = orphan.planet.as_ref().and_then(|(_, file)| file.as_ref());
+    let system_file = orphan.system.as_ref().and_then(|(_, file)| file.as_ref());
+    let file = match planet_file.or(system_file) {
+        Some(file) => format!("It belongs to {}.", file.display()),
         None => "It belongs to no file yet.".to_owned(),
     };
-    let kept = std::fs::metadata(&orphan.file).and_then(|data| data.modified()).ok();
-    let ago = kept.and_then(|kept| kept.elapsed().ok()).map(|ago| format!("It was kept {} ago.", time_text(ago)));
-    std::iter::once(file).chain(ago).collect()
+    let ago = orphan.kept.and_then(|kept| kept.elapsed().ok());
+    std::iter::once(file).chain(ago.map(|ago| format!("It was kept {} ago.", time_text(ago)))).collect()
 }
 
 /// A time in its largest unit.
