@@ -1,4 +1,5 @@
-/* Prints the ground under some places, the extent of a tile, and clouds, water and a falling ball at a time. Build the library first (docs/embedding.md), then:
+/* Prints the ground under some places, the extent of a tile, and clouds, water and a falling ball at a time. Build the
+   library first (docs/embedding.md), then:
    cc -Iinclude examples/embed/heights.c -Ltarget/debug -ltellus -lm -o heights */
 
 #include "tellus.h"

@@ -34,7 +34,12 @@ pub(super) struct Args {
     /// equirect: the whole globe in one picture. cube: six faces of a cube texture. region: a square about --lat and
     /// --lon, azimuthal equidistant. landscape: the same square in --tiles x --tiles tiles that share the vertices of
     /// their borders, as Unreal imports them. quadtree: the globe as tiles of all levels up to --levels, with aprons
-    #[arg(long = "as", value_name = "PROJECTION", default_value = "equirect", value_parser = ["equirect", "cube", "region", "landscape", "quadtree"])]
+    #[arg(
+        long = "as",
+        value_name = "PROJECTION",
+        default_value = "equirect",
+        value_parser = ["equirect", "cube", "region", "landscape", "quadtree"]
+    )]
     projection: String,
     /// Width in pixels of the map, of a face or of a tile [default: 2048; of a tile of a landscape 1009, of a quadtree
     /// 256]
