@@ -61,7 +61,7 @@ const RAINING: f32 = 0.65;
 fn sky_over(dir: vec3f, footprint: f32) -> Sky {
     let texel_km = 0.5 * PI * body.radius_km / CLOUD_MAP_SIDE;
     let level = clamp(log2(max(footprint / texel_km, 1e-3)), body.cloud_least_level, CLOUD_MAP_LEVELS - 1.0);
-    let ground = textureSampleLevel(cloud_maps, clamped, dir, 0, 0.0);
+    let ground = textureSampleLevel(cloud_maps, clamped, dir, 0, body.cloud_least_level);
     let carried = drifted(dir) + shifted(dir, texel_km, footprint);
     var ranks = vec4f(0.0);
     if body.cloud_odd_share < 1.0 {
