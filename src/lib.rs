@@ -86,3 +86,21 @@ pub mod cli;
 #[cfg(feature = "editor")]
 #[doc(hidden)]
 pub mod editor;
+
+/// The programs of the guides are compiled and run with the examples of the documentation.
+#[cfg(doctest)]
+mod guides {
+    #[doc = include_str!("../docs/games.md")]
+    mod games {}
+    #[cfg(feature = "bake")]
+    #[doc = include_str!("../docs/baking.md")]
+    mod baking {}
+    #[cfg(feature = "bake")]
+    #[doc = include_str!("../docs/meshes.md")]
+    mod meshes {}
+    #[cfg(feature = "render")]
+    #[doc = include_str!("../docs/systems.md")]
+    mod systems {}
+    #[doc = include_str!("../README.md")]
+    mod readme {}
+}

@@ -278,7 +278,11 @@ impl EditorApp {
     }
 
     fn show_panels(&mut self, ui: &mut egui::Ui) {
+        let for_brush = self.state.questions.for_brush.take();
         let (state, panels) = (&self.state, &mut self.panels);
+        if let Some(file) = for_brush {
+            panels.sculpt.set_picture(state.document.planet(), &file);
+        }
         if panels.paints()
             && let Some(surface) = state.viewport.surface()
         {

@@ -24,7 +24,7 @@ impl Key {
     /// every machine, wherever the preset is.
     pub fn of_planet(planet: &Planet) -> Self {
         let bare = Planet { editor: None, ..planet.clone() };
-        let pictures: Vec<_> = bare.pictures().map(|(_, file, layout)| file.picture(layout)).collect();
+        let pictures: Vec<_> = bare.pictures().map(|(_, file, extent)| file.picture(extent)).collect();
         Self::of(&(bare.to_text(), pictures))
     }
 

@@ -1,31 +1,47 @@
 //! The pictures of a planet: where it refers to them, and reading those that are missing.
 
 use super::param::{ParamPath, Segment};
-use super::picture::{Budget, Picture, PictureFile, PictureKey, PictureLayout};
-use super::{Planet, Shape};
+use super::picture::{Budget, Picture, PictureExtent, PictureFile, PictureKey};
+use super::{Planet, Shape, Tool, edits};
 use std::path::Path;
 use std::sync::Arc;
 
 impl Planet {
     /// Calls `visit` for each reference to a picture, to be changed.
-    pub fn each_picture(&mut self, mut visit: impl FnMut(ParamPath, &mut PictureFile, PictureLayout)) {
+    pub fn each_picture(&mut self, mut visit: impl FnMut(ParamPath, &mut PictureFile, PictureExtent)) {
         for (index, layer) in self.layers.iter_mut().enumerate() {
             if let Shape::HeightMap(map) = &mut layer.shape {
-                visit(path_in(index), &mut map.file, map.layout);
+                visit(path_in(index), &mut map.file, map.layout.into());
+            }
+        }
+        for index in 0..self.edits.len() {
+            // Looked at first: what is taken to be changed is no longer shared.
+            let is_picture = self.edits.get(index).is_some_and(|edit| matches!(edit.tool, Tool::Picture(_)));
+            if is_picture && let Some(Tool::Picture(stamp)) = self.edits.get_mut(index).map(|edit| &mut edit.tool) {
+                visit(path_in_edit(index), &mut stamp.file, PictureExtent::Place);
             }
         }
     }
 
     /// All references to pictures.
-    pub fn pictures(&self) -> impl Iterator<Item = (ParamPath, &PictureFile, PictureLayout)> {
-        self.layers.iter().enumerate().filter_map(|(index, layer)| match &layer.shape {
-            Shape::HeightMap(map) => Some((path_in(index), &map.file, map.layout)),
+    pub fn pictures(&self) -> impl Iterator<Item = (ParamPath, &PictureFile, PictureExtent)> {
+        let of_layers = self.layers.iter().enumerate().filter_map(|(index, layer)| match &layer.shape {
+            Shape::HeightMap(map) => Some((path_in(index), &map.file, map.layout.into())),
             _ => None,
-        })
+        });
+        let of_edits = self.edits.iter().enumerate().filter_map(|(index, edit)| match &edit.tool {
+            Tool::Picture(stamp) => Some((path_in_edit(index), &stamp.file, PictureExtent::Place)),
+            _ => None,
+        });
+        of_layers.chain(of_edits)
     }
 
     /// Relative paths without a folder become relative to this one.
     pub fn set_folder(&mut self, folder: &Path) {
+        // Edits stay shared where there is nothing to change.
+        if self.pictures().all(|(_, file, _)| file.has_folder()) {
+            return;
+        }
         self.each_picture(|_, file, _| file.set_folder(folder));
     }
 
@@ -39,21 +55,21 @@ impl Planet {
     /// The pictures that are not loaded yet: the path of the parameter, and the source or why there is none.
     pub fn missing_pictures(&self) -> Vec<(ParamPath, Result<PictureKey, String>)> {
         let missing =
-            self.pictures().filter(|(_, file, layout)| !file.path().is_empty() && file.picture(*layout).is_none());
-        let sources = missing.map(|(path, file, layout)| {
+            self.pictures().filter(|(_, file, extent)| !file.path().is_empty() && file.picture(*extent).is_none());
+        let sources = missing.map(|(path, file, extent)| {
             let nowhere = || {
                 let path = file.path();
                 format!("{path:?} is relative to the preset's folder, and there is none yet; use an absolute path")
             };
-            (path, file.key(layout).ok_or_else(nowhere))
+            (path, file.key(extent).ok_or_else(nowhere))
         });
         sources.collect()
     }
 
     /// Gives pixels to every reference to their source.
     pub fn give_picture(&mut self, key: &PictureKey, picture: &Arc<Picture>) {
-        self.each_picture(|_, file, layout| {
-            if file.key(layout).as_ref() == Some(key) {
+        self.each_picture(|_, file, extent| {
+            if file.key(extent).as_ref() == Some(key) {
                 file.give(key, picture);
             }
         });
@@ -62,14 +78,15 @@ impl Planet {
     /// The budget that is left for missing pictures.
     pub fn picture_budget(&self) -> Budget {
         let mut budget = Budget::default();
-        for picture in self.pictures().filter_map(|(_, file, layout)| file.picture(layout)) {
+        for picture in self.pictures().filter_map(|(_, file, extent)| file.picture(extent)) {
             // A planet beyond the budget only gets no further picture.
             let _ = budget.keep(picture);
         }
         budget
     }
 
-    /// Reads all missing pictures. Returns what is wrong with those that could not be read; their layers stay flat.
+    /// Reads all missing pictures. Returns what is wrong with those that could not be read; their layers stay flat,
+    /// their stamps do nothing.
     pub fn load_pictures(&mut self) -> Vec<(ParamPath, String)> {
         self.load_pictures_with(PictureKey::load)
     }
@@ -116,4 +133,9 @@ impl Planet {
 fn path_in(layer: usize) -> ParamPath {
     let steps = ["shape", "file"].map(Segment::Field);
     ParamPath::from([[Segment::Field("layers"), Segment::Index(layer)], steps].concat())
+}
+
+/// Path of the picture in a ground edit.
+fn path_in_edit(index: usize) -> ParamPath {
+    edits::edit_path(index).join("tool").join("file")
 }

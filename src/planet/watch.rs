@@ -125,7 +125,7 @@ impl FileWatch {
 
 /// The pictures that a preset refers to.
 pub(crate) fn pictures(planet: &Planet) -> Vec<PathBuf> {
-    let keys = planet.pictures().filter_map(|(_, file, layout)| file.key(layout));
+    let keys = planet.pictures().filter_map(|(_, file, extent)| file.key(extent));
     keys.map(|PictureKey { file, .. }| file).collect()
 }
 

@@ -242,7 +242,7 @@ fn exr_files() -> Vec<(String, Vec<u8>)> {
 }
 
 fn read(file: &Path) -> std::result::Result<std::sync::Arc<tellus::planet::picture::Picture>, String> {
-    let key = PictureKey { file: file.to_owned(), layout: PictureLayout::Equirectangular };
+    let key = PictureKey { file: file.to_owned(), extent: PictureLayout::Equirectangular.into() };
     key.load(&mut Budget::default())
 }
 

@@ -147,7 +147,7 @@ fn normals_are_those_of_the_heights_and_bits_are_the_same_everywhere() {
 fn an_interlaced_picture_is_the_same_picture() {
     let read = |name: &str| {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name);
-        PictureKey { file, layout: PictureLayout::Equirectangular }.load(&mut Budget::default()).unwrap()
+        PictureKey { file, extent: PictureLayout::Equirectangular.into() }.load(&mut Budget::default()).unwrap()
     };
     let (plain, interlaced) = (read("plain.png"), read("interlaced.png"));
     assert_ne!(plain.bounds().0, plain.bounds().1);

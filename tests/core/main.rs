@@ -7,7 +7,7 @@
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
-//! - `sculpt`, `paint`: ground edits
+//! - `sculpt`, `stamp`, `paint`: ground edits
 //! - `system`: orbits and resonances
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
@@ -30,6 +30,7 @@ mod relief;
 mod saving;
 mod sculpt;
 mod sphere;
+mod stamp;
 mod structure;
 mod system;
 mod terrain;

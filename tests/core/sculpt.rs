@@ -1,13 +1,14 @@
 //! Ground edits: each tool against its formula, one height for every query and tile, and rebuilds of what they touch.
 
+use crate::stamp::{self, HILLS};
 use crate::support::dice::Dice;
 use glam::DVec3;
 use std::sync::Arc;
 use std::time::Duration;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::edits::{
-    Canyon, Coast, Crater, EditPoint, EditPoints, Fault, Flatten, GroundEdit, Island, Limit, Mesa, Raise, Ridge, Road,
-    Terrace, Tool, Volcano, Wall,
+    Canyon, Coast, Crater, EditPoint, EditPoints, Fault, Flatten, GroundEdit, Island, Limit, Mesa, PictureStamp, Raise,
+    Ridge, Road, Terrace, Tool, Volcano, Wall,
 };
 use tellus::planet::{Fbm, GroundEdits, Layer, Planet, Shape, Water};
 use tellus::simd::Simd;
@@ -30,13 +31,16 @@ pub(crate) fn planet(hills_m: f64, edits: Vec<GroundEdit>) -> Planet {
         shape: Shape::Fbm(Fbm { wavelength_km: 300.0, octaves: 12, ..Fbm::default() }),
         ..Layer::default()
     };
-    Planet {
+    let mut planet = Planet {
         radius_km: 1000.0,
         layers: vec![layer],
         water: Some(Water { level_m: -50.0, ..Water::default() }),
         edits: edits.into_iter().collect(),
         ..Planet::default()
-    }
+    };
+    let problems = planet.load_pictures_from(|_| Ok(stamp::hills()));
+    assert!(problems.is_empty(), "{problems:?}");
+    planet
 }
 
 pub(crate) fn terrain(planet: &Planet) -> Terrain {
@@ -64,6 +68,10 @@ pub(crate) fn every_tool() -> Vec<GroundEdit> {
                 points.push(at(lat_deg - 3.0 * lat_deg.signum(), lon_deg + 4.0));
                 points.push(at(lat_deg - 7.0 * lat_deg.signum(), lon_deg - 2.0));
             }
+            let tool = match tool {
+                Tool::Picture(stamp) => Tool::Picture(PictureStamp { file: HILLS.to_owned().into(), ..stamp }),
+                tool => tool,
+            };
             if matches!(tool, Tool::Road(_)) {
                 points.iter_mut().zip([200.0, 900.0, -100.0]).for_each(|(point, height_m)| point.height_m = height_m);
             }

@@ -5,8 +5,9 @@ use super::{press, slide};
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use tellus::editor::command::Command;
-use tellus::planet::edits::{Raise, Tool};
+use tellus::planet::edits::{PictureStamp, Raise, Tool};
 use tellus::planet::param::Choice;
+use tellus::planet::picture::PictureExtent;
 use tellus::planet::{GroundEdits, Planet, Water};
 
 fn small() -> Planet {
@@ -270,4 +271,55 @@ fn two_thousand_random_changes_are_undone_and_redone_to_the_bit() {
         assert!(*document.planet() == states[last - forth], "{forth} steps left");
     }
     assert_eq!(document.planet().to_text(), states[last].to_text());
+}
+
+#[test]
+fn a_picture_is_chosen_for_the_brush_placed_turned_by_its_handle_and_saved_beside_the_preset() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let pixels: Vec<u8> = (0..16 * 16).map(|i| 100 + (i / 2) as u8).collect();
+    image::save_buffer(path("hill.png"), &pixels, 16, 16, image::ExtendedColorType::L8).unwrap();
+    let answers = vec![Some(path("hill.png")), Some(path("mine.ron"))];
+    let mut harness = app::open_planet_with_answers([1024.0, 640.0], small(), answers);
+    app::wait_for_picture(&mut harness);
+    let number = Tool::NAMES.iter().position(|name| *name == "Picture").unwrap();
+    app::send(&mut harness, Command::TakeTool(number));
+    assert!(harness.query_all_by_label_contains("Choose a height picture").next().is_some());
+    click(&mut harness, "Browse…");
+    harness.run_steps(2);
+    assert!(harness.query_all_by_label_contains("Choose a height picture").next().is_none());
+    let stamps = |harness: &app::Editor| -> Vec<PictureStamp> {
+        let planet = planet(harness);
+        let stamps = planet.edits.iter().filter_map(|edit| match &edit.tool {
+            Tool::Picture(stamp) => Some(stamp.clone()),
+            _ => None,
+        });
+        stamps.collect()
+    };
+    let is_loaded = |stamp: &PictureStamp| stamp.file.picture(PictureExtent::Place).is_some();
+    let middle = canvas(&harness).center();
+    stroke(&mut harness, middle, middle + egui::vec2(60.0, 0.0), egui::Modifiers::NONE);
+    app::until(&mut harness, "the picture is read", |harness| stamps(harness).iter().all(is_loaded));
+    let highest_m = |harness: &app::Editor| {
+        let planet = planet(harness);
+        let middle = planet.edits.get(0).unwrap().points.0[0].direction();
+        tellus::terrain::Terrain::try_new(planet.into()).unwrap().height_m(middle)
+    };
+    assert!(highest_m(&harness) > 500.0, "{}", highest_m(&harness));
+    // The next one has its pixels at once.
+    let aside = middle + egui::vec2(0.0, 120.0);
+    stroke(&mut harness, aside, aside + egui::vec2(30.0, 0.0), egui::Modifiers::NONE);
+    assert!(stamps(&harness).len() == 2 && stamps(&harness).iter().all(is_loaded));
+
+    // The square at the right edge of the selected one turns it: downwards is a quarter clockwise.
+    app::send(&mut harness, Command::PutDownTool);
+    stroke(&mut harness, aside + egui::vec2(30.0, 0.0), aside + egui::vec2(0.0, 30.0), egui::Modifiers::NONE);
+    let turned = stamps(&harness);
+    assert!((turned[1].turn_deg - 90.0).abs() < 25.0 && turned[0].turn_deg == 0.0, "{turned:?}");
+
+    app::send(&mut harness, Command::SaveAs);
+    harness.run_steps(3);
+    let text = std::fs::read_to_string(path("mine.ron")).unwrap();
+    assert_eq!(text.matches("file: \"hill.png\"").count(), 2, "{text}");
+    assert_eq!(Planet::load(path("mine.ron")).unwrap().edits.len(), 2);
 }

@@ -126,6 +126,14 @@ pub fn open_planet_with_picture(size: [f32; 2], planet: Planet) -> Editor {
     start(builder, move |cc| EditorApp::with_planet(cc, planet, None, None))
 }
 
+/// The same, with these answers of file dialogs.
+pub fn open_planet_with_answers(size: [f32; 2], planet: Planet, answers: Vec<Option<PathBuf>>) -> Editor {
+    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / 60.0);
+    let builder = builder.with_pixels_per_point(COARSE).renderer(WgpuTestRenderer::from_render_state(render_state()));
+    let dialogs = Box::new(ScriptedDialogs::new(answers));
+    start(builder, move |cc| EditorApp::with_planet(cc, planet, None, None).with_dialogs(dialogs))
+}
+
 /// An editor without a picture of a planet.
 pub fn open_planet(size: [f32; 2], planet: Planet) -> Editor {
     let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / 60.0);

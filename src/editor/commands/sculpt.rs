@@ -15,6 +15,7 @@ const TOOLS: [(&str, &str); Tool::NAMES.len()] = [
     ("Sculpt: volcano", "Place volcanoes: cones, shields, calderas."),
     ("Sculpt: mesa", "Place table mountains."),
     ("Sculpt: island", "Let land rise out of the sea."),
+    ("Sculpt: picture", "Place the ground of a height picture."),
     ("Sculpt: ridge", "Draw a crest, point after point."),
     ("Sculpt: canyon", "Draw a valley with steep walls, point after point."),
     ("Sculpt: road", "Draw a level bed, point after point."),

@@ -58,8 +58,8 @@ impl TheirFile {
         let planet = match Planet::from_text(&path.display().to_string(), text) {
             Ok(mut planet) => {
                 planet.set_folder(&folder_of(path));
-                ours.clone().each_picture(|_, file, layout| {
-                    if let (Some(key), Some(picture)) = (file.key(layout), file.picture(layout)) {
+                ours.clone().each_picture(|_, file, extent| {
+                    if let (Some(key), Some(picture)) = (file.key(extent), file.picture(extent)) {
                         planet.give_picture(&key, picture);
                     }
                 });

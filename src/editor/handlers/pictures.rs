@@ -1,9 +1,10 @@
-//! The choice of a height map's picture.
+//! The choice of a picture for a height map or a stamp.
 
 use crate::editor::files::dialogs::DialogRequest;
+use crate::editor::panels::sculpt::BRUSH;
 use crate::editor::state::State;
 use crate::editor::state::questions::Asking;
-use crate::planet::param::{Domain, ParamPath, ValueMut};
+use crate::planet::param::{Domain, ParamPath, Segment, ValueMut};
 use eframe::egui;
 use std::path::Path;
 
@@ -15,6 +16,10 @@ pub fn browse(state: &mut State, ctx: &egui::Context, path: ParamPath) {
 
 /// Writes the name of the chosen file into the parameter at `path`, unless the planet has no such parameter any more.
 pub fn choose(state: &mut State, path: &ParamPath, file: &Path) {
+    if let [Segment::Field(BRUSH), ..] = path.segments() {
+        state.questions.for_brush = Some(file.to_owned());
+        return;
+    }
     let mut planet = (**state.document.planet()).clone();
     planet.each(&mut |at, param, value| {
         if at == path

@@ -14,6 +14,7 @@ use crate::planet::param::{Choice, ParamPath};
 use crate::planet::{Planet, TableRows, Tool};
 use crate::sphere::LatLon;
 use eframe::egui::{self, AtomExt};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Share of the tab's height that the list takes at most.
@@ -31,6 +32,8 @@ const LEAST_FIRST_KM: f64 = 0.005;
 /// What the measure tool does.
 const MEASURES: &str = "Drag to measure a way and its profile; click point after point for longer ways and areas, Enter \
                         ends one, Escape forgets it.";
+/// First step of the paths of the brush's parameters.
+pub const BRUSH: &str = "brush";
 /// Parameters of an edit that have rows of their own.
 const OWN_ROWS: [&str; 3] = ["name", "enabled", "points"];
 /// Parameters of an edit that a brush does not have.
@@ -88,6 +91,13 @@ impl SculptState {
             SculptAction::Smaller => self.brush(planet).radius_km = tidy_km(self.brush(planet).radius_km / STEP),
         }
         self.brush(planet);
+    }
+
+    /// Gives the picture tool in hand a picture.
+    pub fn set_picture(&mut self, planet: &Planet, file: &Path) {
+        if let Tool::Picture(stamp) = &mut self.brush(planet).tool {
+            stamp.file = file.to_string_lossy().into_owned().into();
+        }
     }
 
     /// The brush of the tool; a new one fits the planet.
@@ -175,7 +185,7 @@ fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let brush = state.brush(draft.planet);
     let owner = "brush";
     // A path that no planet has: what is said of parameters of the planet is not said of these.
-    let base = ParamPath::default().join("brush");
+    let base = ParamPath::default().join(BRUSH);
     let locks = LockView::none();
     let shown = RowView { locks: &locks, ..draft.shown };
     let biomes = names(&draft.planet.biomes);
@@ -184,14 +194,15 @@ fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let default_tool = Tool::of_kind(tool).unwrap_or_default();
     let mut default = GroundEdit { radius_km: brush.radius_km, ..GroundEdit::of(default_tool) };
     let before = brush.tool.index();
-    params_grid(ui, &grid, brush, &mut default);
+    let browse = params_grid(ui, &grid, brush, &mut default);
+    draft.commands.extend(browse.map(Action::Browse));
     if let (Tool::Flatten(Flatten { height_m, .. }), Some(sea_m)) = (&mut brush.tool, sea_m) {
         let told = "Flatten to the level of the sea";
         if ui.button("Sea level").on_hover_text(told).accessible_name("Height of brush: sea level").clicked() {
             *height_m = sea_m;
         }
     }
-    unpaintable(ui, draft.planet, &brush.tool);
+    idle_tool(ui, draft.planet, &brush.tool);
     // The grid also offers the choice of the tool.
     let after = brush.tool.index();
     if after != before {
@@ -347,8 +358,9 @@ fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let biomes = names(&draft.planet.biomes);
     let skip = skipped(&OWN_ROWS, &edit.tool);
     let grid = Grid { base: edit_path(index), owner: &name, skip: &skip, shown: draft.shown, biomes: &biomes };
-    params_grid(ui, &grid, &mut edit, &mut default);
-    unpaintable(ui, draft.planet, &edit.tool);
+    let browse = params_grid(ui, &grid, &mut edit, &mut default);
+    draft.commands.extend(browse.map(Action::Browse));
+    idle_tool(ui, draft.planet, &edit.tool);
     if let Some(now) = draft.planet.edits.get_mut(index).filter(|now| **now != edit) {
         *now = edit;
         draft.name_edit(if renamed { "Rename edit".to_owned() } else { format!("Change {name}") });
@@ -362,8 +374,13 @@ fn skipped(list: &[&'static str], tool: &Tool) -> Vec<&'static str> {
     [list, ground, stamp].concat()
 }
 
-/// Says why paint does nothing, or not all.
-fn unpaintable(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
+/// Says why a tool does nothing, or not all.
+fn idle_tool(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
+    if let Tool::Picture(stamp) = tool
+        && stamp.file.path().is_empty()
+    {
+        ui.weak("Choose a height picture (PNG or OpenEXR) with Browse: white is high, black is low.");
+    }
     if let (Tool::Clouds(_), None) = (tool, &planet.clouds) {
         ui.weak("The planet has no clouds: switch them on in the Clouds tab, or nothing is painted.");
     }

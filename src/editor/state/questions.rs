@@ -136,6 +136,8 @@ pub struct Questions {
     pub change: Option<Change>,
     /// The action that follows once the document is saved.
     pub after_save: Option<Goal>,
+    /// The picture that was chosen for the brush in hand.
+    pub for_brush: Option<PathBuf>,
     /// The planet whose unsaved changes the user gave up for a flight to another body; the flight ends with it.
     pub given_up: Option<Arc<Planet>>,
     /// Whether the window closes without another question.
@@ -154,6 +156,7 @@ impl Questions {
             change: None,
             after_save: None,
             given_up: None,
+            for_brush: None,
             may_close: false,
         }
     }
@@ -215,6 +218,6 @@ impl Questions {
     pub fn forget(&mut self) {
         (self.in_dialog, self.path, self.unsaved) = (None, None, None);
         (self.replace, self.change, self.after_save) = (None, None, None);
-        self.given_up = None;
+        (self.given_up, self.for_brush) = (None, None);
     }
 }

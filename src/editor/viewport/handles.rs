@@ -1,8 +1,9 @@
-//! Handles of the selected edit: its points, and the square on its ring that draws its radius. With Ctrl a point moves
+//! Handles of the selected edit: its points, and the square on its ring that draws its radius and turns a picture. With Ctrl a point moves
 //! the whole edit, with Shift it turns and stretches it around its middle.
 
 use super::ring::Ground;
-use crate::planet::{EditPoint, GroundEdit};
+use super::sculpt::tidy_km;
+use crate::planet::{EditPoint, GroundEdit, Tool};
 use crate::sphere::geo::east_north;
 use eframe::egui::Pos2;
 use glam::{DQuat, DVec3};
@@ -38,11 +39,26 @@ pub(super) fn under(ground: &Ground<'_>, edit: &GroundEdit, pos: Pos2) -> Option
     near.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, away)| *away <= HOLD).map(|(handle, _)| handle)
 }
 
-/// The square that draws the radius: east of the first point.
+/// The square that draws the radius: east of the first point; of a picture, at its right edge.
 pub(super) fn radius_dir(edit: &GroundEdit, radius_m: f64) -> Option<DVec3> {
     let middle = edit.points.0.first()?.direction();
     let angle_rad = (edit.radius_km * 1000.0 / radius_m).min(3.0);
-    Some(middle * angle_rad.cos() + east_north(middle).0 * angle_rad.sin())
+    let turn_rad = if let Tool::Picture(stamp) = &edit.tool { stamp.turn_deg.to_radians() } else { 0.0 };
+    let (east, north) = east_north(middle);
+    let right = east * turn_rad.cos() - north * turn_rad.sin();
+    Some(middle * angle_rad.cos() + right * angle_rad.sin())
+}
+
+/// Lets the square be at a direction: it draws the radius, and turns a picture.
+pub(super) fn set_radius_dir(edit: &mut GroundEdit, to: DVec3, radius_m: f64) -> Option<()> {
+    let middle = edit.points.0.first()?.direction();
+    edit.radius_km = tidy_km(to.angle_between(middle) * radius_m / 1000.0);
+    if let Tool::Picture(stamp) = &mut edit.tool {
+        let (east, north) = east_north(middle);
+        let turn_deg = (-to.dot(north)).atan2(to.dot(east)).to_degrees();
+        stamp.turn_deg = (turn_deg * 10.0).round() / 10.0;
+    }
+    Some(())
 }
 
 /// The points of an edit after one of them, where it was in `before`, was dragged.
@@ -88,7 +104,24 @@ pub(super) fn dragged(before: &[EditPoint], grabbed: usize, to: DVec3, others: O
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::planet::edits::{EditPoints, PictureStamp};
     use crate::sphere::LatLon;
+
+    #[test]
+    fn the_square_draws_the_radius_and_turns_a_picture() {
+        let middle = EditPoint::under(LatLon::from_degrees(40.0, 20.0).direction());
+        let tool = Tool::Picture(PictureStamp::default());
+        let mut edit = GroundEdit { tool, points: EditPoints(vec![middle]), ..GroundEdit::default() };
+        let (east, north) = east_north(middle.direction());
+        for (heading_deg, away_rad) in [(90.0, 0.02), (100.0, 0.05), (-33.0, 0.1), (0.0, 0.3)] {
+            let (sin, cos) = f64::to_radians(heading_deg).sin_cos();
+            let to = middle.direction() * f64::cos(away_rad) + (east * sin + north * cos) * f64::sin(away_rad);
+            assert_eq!(set_radius_dir(&mut edit, to, 1e6), Some(()));
+            assert!((edit.radius_km - 1000.0 * away_rad).abs() < 0.01 * edit.radius_km, "{edit:?}");
+            let back = radius_dir(&edit, 1e6).unwrap();
+            assert!(back.angle_between(to) < 0.01 * away_rad, "{heading_deg} {edit:?}");
+        }
+    }
 
     #[test]
     fn edits_move_turn_and_stretch_as_a_whole() {

@@ -229,6 +229,9 @@ impl Hand {
         if inverse {
             invert(&mut edit.tool);
         }
+        if let Tool::Picture(stamp) = &mut edit.tool {
+            stamp.file.share(planet.pictures().map(|(_, file, _)| file));
+        }
         planet.edits.push(edit);
         self.touched = Some(index);
         Some(index)
@@ -259,9 +262,7 @@ impl Hand {
             }
             Gesture::Radius { edit, .. } => {
                 self.touched = Some(*edit);
-                let edit = planet.edits.get_mut(*edit)?;
-                let middle = edit.points.0.first()?.direction();
-                edit.radius_km = tidy_km(to.angle_between(middle) * radius_m / 1000.0);
+                handles::set_radius_dir(planet.edits.get_mut(*edit)?, to, radius_m)?;
                 Some(RADIUS_STEP)
             }
             Gesture::Point { edit, point, before, others, on } => {
@@ -342,6 +343,7 @@ impl Hand {
 fn invert(tool: &mut Tool) {
     match tool {
         Tool::Raise(raise) => raise.amount_m = -raise.amount_m,
+        Tool::Picture(stamp) => stamp.height_m = -stamp.height_m,
         Tool::Fault(fault) => fault.throw_m = -fault.throw_m,
         Tool::Coast(coast) => coast.flip = !coast.flip,
         Tool::Moisture(paint) if paint.mode == PaintMode::Shift => paint.moisture = -paint.moisture,

@@ -4,6 +4,7 @@
 use crate::planet::biome::UNSET_KEY;
 use crate::planet::kinds::kinds;
 use crate::planet::param::{Domain, Stage, Unit, choice, linear, log, params};
+use crate::planet::picture::PictureFile;
 
 kinds! {
     /// What an edit does to the ground.
@@ -24,6 +25,8 @@ kinds! {
     Mesa(Mesa) = "Mesa",
     /// Land that rises out of the sea.
     Island(Island) = "Island",
+    /// The ground of a height picture: a mountain, a city, a logo.
+    Picture(PictureStamp) = "Picture",
     /// A crest along a line.
     Ridge(Ridge) = "Ridge",
     /// A valley with steep walls along a line.
@@ -51,7 +54,7 @@ kinds! {
 impl Tool {
     /// Whether the tool acts around each of its points alone, and not along the line through them.
     pub fn is_stamp(&self) -> bool {
-        matches!(self, Tool::Crater(_) | Tool::Volcano(_) | Tool::Mesa(_) | Tool::Island(_))
+        matches!(self, Tool::Crater(_) | Tool::Volcano(_) | Tool::Mesa(_) | Tool::Island(_) | Tool::Picture(_))
     }
 
     /// Whether the tool acts along a line that is drawn point by point.
@@ -153,6 +156,24 @@ params! {
         height_m: f64 = 800.0, "Height", Unit::Metres, log(0.0, 20_000.0), Stage::Height;
         /// Depth of its foot below the sea.
         foot_m: f64 = 800.0, "Foot", Unit::Metres, log(1.0, 10_000.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + height_m * (value - level) * w`: the longer side of the picture is the diameter, its corners are cut off.
+    pub struct PictureStamp {
+        /// The picture, of any shape: PNG (8 or 16 bits; black is 0, white is 1) or OpenEXR (channel Y, or else L, R or
+        /// the first; unscaled). It is smoothed by about one pixel. The path is relative to the preset's folder, or
+        /// absolute.
+        file: PictureFile = PictureFile::default(), "File", Unit::None, Domain::File { max_chars: 256 }, Stage::Height;
+        /// Height of white above black; negative turns mountains into basins.
+        height_m: f64 = 1500.0, "Height", Unit::Metres, linear(-20_000.0, 20_000.0), Stage::Height;
+        /// Value of the picture that leaves the ground as it is: 0 for black, 1 for white.
+        level: f64 = 0.0, "Level", Unit::None, linear(0.0, 1.0), Stage::Height;
+        /// Clockwise turn of the top of the picture from north.
+        turn_deg: f64 = 0.0, "Turn", Unit::Degrees, linear(-180.0, 180.0), Stage::Height;
+        /// Copies are turned at random, by up to this angle either way.
+        random_turn_deg: f64 = 180.0, "Random turn", Unit::Degrees, linear(0.0, 180.0), Stage::Height;
     }
 }
 

@@ -6,7 +6,7 @@
 use super::budget::{Budget, MAX_WORK_BYTES};
 use super::canvas::{Canvas, Size};
 use super::contain::contained;
-use super::pixels::{Picture, PictureLayout, Texels};
+use super::pixels::{Picture, PictureExtent, Texels};
 use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::reader::Reader;
 use exr::block::{BlockIndex, UncompressedBlock};
@@ -33,17 +33,17 @@ const MAX_BLOCKS: u64 = MAX_WORK_BYTES / LEAST_BLOCK_WORK;
 /// Reads a picture; takes what it needs from the budget.
 pub(super) fn read(
     mut file: impl BufRead + Seek,
-    layout: PictureLayout,
+    extent: PictureExtent,
     budget: &mut Budget,
 ) -> Result<Picture, String> {
     let about = contained(|| {
         MetaData::read_from_buffered(file.by_ref().take(MAX_HEADER_BYTES), false).map_err(|error| broken(&error))
     })?;
     file.rewind().map_err(|error| format!("cannot be read: {error}"))?;
-    let source = Source::find(&about, layout)?;
+    let source = Source::find(&about, extent)?;
     let bytes = source.size.pixels() * size_of::<f32>() as u64;
     budget.take(bytes, source.work_bytes)?;
-    let canvas = contained(|| blocks(file, &source, layout)).inspect_err(|_| budget.give_back(bytes))?;
+    let canvas = contained(|| blocks(file, &source, extent)).inspect_err(|_| budget.give_back(bytes))?;
     let (raster, hash) = canvas.finish(|texel| u64::from(texel.to_bits()));
     Ok(Picture { texels: Texels::Float(raster), hash, bytes })
 }
@@ -63,11 +63,11 @@ struct Source {
 
 impl Source {
     /// Checks everything that a decoder relies on.
-    fn find(about: &MetaData, layout: PictureLayout) -> Result<Self, String> {
+    fn find(about: &MetaData, extent: PictureExtent) -> Result<Self, String> {
         let usable = |header: &Header| !header.deep && !header.channels.list.is_empty();
         let layer = about.headers.iter().position(usable).ok_or("has no channel of plain pixels")?;
         let header = &about.headers[layer];
-        let size = Size::checked([header.layer_size.width(), header.layer_size.height()], layout)?;
+        let size = Size::checked([header.layer_size.width(), header.layer_size.height()], extent)?;
         for header in &about.headers {
             check_blocks(header)?;
         }
@@ -156,7 +156,7 @@ fn check_blocks(header: &Header) -> Result<(), String> {
     }
 }
 
-fn blocks(file: impl BufRead + Seek, source: &Source, layout: PictureLayout) -> Result<Canvas<f32>, String> {
+fn blocks(file: impl BufRead + Seek, source: &Source, extent: PictureExtent) -> Result<Canvas<f32>, String> {
     let reader = Reader::read_from_buffered(file, false).map_err(|error| broken(&error))?;
     let about = reader.meta_data().clone();
     let mut chunks = reader.all_chunks(false).map_err(|error| broken(&error))?;
@@ -165,7 +165,7 @@ fn blocks(file: impl BufRead + Seek, source: &Source, layout: PictureLayout) -> 
     let mut seen = vec![false; columns * source.size.height.div_ceil(block_height)];
     let at_once = (MAX_GROUP_BYTES / (block_width * block_height * source.pixel_bytes))
         .clamp(1, 4 * rayon::current_num_threads().max(1));
-    let mut canvas = Canvas::new(source.size, layout)?;
+    let mut canvas = Canvas::new(source.size, extent)?;
     let mut missing = seen.len();
     while missing > 0 {
         let wanted = chunks.by_ref().filter(|chunk| chunk.as_ref().map_or(true, |chunk| source.wants(chunk)));

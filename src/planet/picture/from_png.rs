@@ -2,7 +2,7 @@
 
 use super::budget::Budget;
 use super::canvas::{Canvas, Size};
-use super::pixels::{Picture, PictureLayout, Texels};
+use super::pixels::{Picture, PictureExtent, Texels};
 use std::io::{BufRead, Seek};
 
 /// First column and row of each pass of an interlaced picture, and the steps from pixel to pixel and row to row.
@@ -10,23 +10,23 @@ const PASSES: [[usize; 4]; 7] =
     [[0, 0, 8, 8], [4, 0, 8, 8], [0, 4, 4, 8], [2, 0, 4, 4], [0, 2, 2, 4], [1, 0, 2, 2], [0, 1, 1, 2]];
 
 /// Reads a picture; takes what it needs from the budget.
-pub(super) fn read(file: impl BufRead + Seek, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
+pub(super) fn read(file: impl BufRead + Seek, extent: PictureExtent, budget: &mut Budget) -> Result<Picture, String> {
     let mut decoder = png::Decoder::new(file);
     // Palettes become colours; fewer bits become 8.
     decoder.set_transformations(png::Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info().map_err(|error| broken(&error))?;
-    let size = Size::checked([header.width as usize, header.height as usize], layout)?;
+    let size = Size::checked([header.width as usize, header.height as usize], extent)?;
     let bytes = size.pixels() * size_of::<u16>() as u64;
     budget.take(bytes, size.pixels() * header.bytes_per_pixel() as u64)?;
-    let canvas = rows(decoder, size, layout).inspect_err(|_| budget.give_back(bytes))?;
+    let canvas = rows(decoder, size, extent).inspect_err(|_| budget.give_back(bytes))?;
     let (raster, hash) = canvas.finish(u64::from);
     Ok(Picture { texels: Texels::Grey16(raster), hash, bytes })
 }
 
-fn rows(decoder: png::Decoder<impl BufRead + Seek>, size: Size, layout: PictureLayout) -> Result<Canvas<u16>, String> {
-    let mut canvas = Canvas::new(size, layout)?;
+fn rows(decoder: png::Decoder<impl BufRead + Seek>, size: Size, extent: PictureExtent) -> Result<Canvas<u16>, String> {
+    let mut canvas = Canvas::new(size, extent)?;
     let mut reader = decoder.read_info().map_err(|error| broken(&error))?;
     let (color, depth) = reader.output_color_type();
     let (channels, wide) = (color.samples(), depth == png::BitDepth::Sixteen);

@@ -8,7 +8,8 @@
 //! - `place`: paths, relative to the folder of a preset
 //!
 //! A planet carries its pixels with it, shared and never saved, so that its evaluator needs no file.
-//! [`Planet::load`](super::Planet::load) reads them. A layer whose pixels are missing is flat.
+//! [`Planet::load`](super::Planet::load) reads them. A layer whose pixels are missing is flat, and a stamp leaves the
+//! ground as it is.
 
 mod budget;
 mod canvas;
@@ -22,20 +23,20 @@ mod read;
 
 pub use budget::{Budget, MAX_BYTES, MAX_PIXELS, MAX_WORK_BYTES};
 pub use contain::is_contained;
-pub use pixels::{Picture, PictureLayout};
+pub use pixels::{Picture, PictureExtent, PictureLayout};
 
 use super::param::{ParamValue, ValueMut, ValueRef};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The source of a picture: a file, read in a layout.
+/// The source of a picture: a file, and what it covers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PictureKey {
     /// Where the file is.
     pub file: PathBuf,
-    /// How it is read.
-    pub layout: PictureLayout,
+    /// What it covers.
+    pub extent: PictureExtent,
 }
 
 impl PictureKey {
@@ -45,7 +46,7 @@ impl PictureKey {
     /// # Errors
     /// What is wrong with the file, and what would be right.
     pub fn load(&self, budget: &mut Budget) -> Result<Arc<Picture>, String> {
-        known::load(&self.file, self.layout, budget)
+        known::load(&self.file, self.extent, budget)
     }
 
     /// Reads the picture from the bytes of a PNG or OpenEXR file, such as an entry of an asset pack. Its size is taken
@@ -54,7 +55,7 @@ impl PictureKey {
     /// # Errors
     /// What is wrong with the bytes, and what would be right.
     pub fn decode(&self, bytes: &[u8], budget: &mut Budget) -> Result<Arc<Picture>, String> {
-        let decoded = read::read_bytes(bytes, self.layout, budget);
+        let decoded = read::read_bytes(bytes, self.extent, budget);
         decoded.map(Arc::new).map_err(|problem| format!("{} {problem}", self.file.display()))
     }
 }
@@ -119,19 +120,25 @@ impl PictureFile {
         }
     }
 
-    /// The source of the pixels in this layout.
-    pub fn key(&self, layout: PictureLayout) -> Option<PictureKey> {
-        Some(PictureKey { file: self.location()?, layout })
+    /// The source of the pixels that cover this.
+    pub fn key(&self, extent: impl Into<PictureExtent>) -> Option<PictureKey> {
+        Some(PictureKey { file: self.location()?, extent: extent.into() })
     }
 
-    /// The pixels in this layout, if they are loaded.
-    pub fn picture(&self, layout: PictureLayout) -> Option<&Arc<Picture>> {
-        self.current().filter(|(key, _)| key.layout == layout).map(|(_, picture)| picture)
+    /// The pixels that cover this, if they are loaded.
+    pub fn picture(&self, extent: impl Into<PictureExtent>) -> Option<&Arc<Picture>> {
+        let extent = extent.into();
+        self.current().filter(|(key, _)| key.extent == extent).map(|(_, picture)| picture)
     }
 
     /// The loaded pixels, unless the path has changed since.
     fn current(&self) -> Option<&(PictureKey, Arc<Picture>)> {
         self.loaded.as_ref().filter(|(key, _)| self.location().as_ref() == Some(&key.file))
+    }
+
+    /// Whether its relative paths are relative to something.
+    pub(super) fn has_folder(&self) -> bool {
+        self.folder.is_some()
     }
 
     /// A relative path without a folder becomes relative to this one.
@@ -142,6 +149,15 @@ impl PictureFile {
     /// Takes over pixels that were read from their source.
     pub(super) fn give(&mut self, key: &PictureKey, picture: &Arc<Picture>) {
         self.loaded = Some((key.clone(), picture.clone()));
+    }
+
+    /// Takes over pixels from another reference to the same file, if one has them.
+    pub(crate) fn share<'a>(&mut self, others: impl Iterator<Item = &'a PictureFile>) {
+        let place = self.location();
+        let loaded = others.filter_map(PictureFile::current);
+        if let Some(loaded) = loaded.filter(|(key, _)| Some(&key.file) == place.as_ref()).last() {
+            self.loaded = Some(loaded.clone());
+        }
     }
 
     /// Rewrites the path for a preset in this folder.

@@ -17,7 +17,32 @@ choice! {
     }
 }
 
-/// The pixels of a picture, to be sampled by direction. Black is 0, white is 1.
+/// What a picture covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PictureExtent {
+    /// The whole planet, in a layout.
+    Globe(PictureLayout),
+    /// A place: the picture is flat and of any shape.
+    Place,
+}
+
+impl From<PictureLayout> for PictureExtent {
+    fn from(layout: PictureLayout) -> Self {
+        PictureExtent::Globe(layout)
+    }
+}
+
+impl PictureExtent {
+    /// A number for hashes.
+    pub(super) fn number(self) -> u64 {
+        match self {
+            PictureExtent::Globe(layout) => layout as u64,
+            PictureExtent::Place => 7,
+        }
+    }
+}
+
+/// The pixels of a picture, to be sampled by direction, or by position if it covers a place. Black is 0, white is 1.
 pub struct Picture {
     pub(super) texels: Texels,
     /// Of the pixels and their layout: equal pictures have equal hashes.
@@ -40,6 +65,11 @@ impl Picture {
         }
     }
 
+    /// A hash of its pixels and what they cover.
+    pub(crate) fn hash(&self) -> u64 {
+        self.hash
+    }
+
     /// Conservative bounds of the samples within an angle of a unit direction.
     pub fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         match &self.texels {
@@ -51,7 +81,8 @@ impl Picture {
         }
     }
 
-    /// The finest level that points of this spacing in radians can show; level 0 is the picture itself.
+    /// The finest level that points of this spacing in radians can show; level 0 is the picture itself. Of a picture of a
+    /// place the spacing counts as its positions do.
     pub fn level_for(&self, spacing_rad: f64) -> usize {
         match &self.texels {
             Texels::Grey16(raster) => raster.level_for(spacing_rad),
@@ -59,7 +90,8 @@ impl Picture {
         }
     }
 
-    /// The location of a unit direction in the picture, for samples of any level.
+    /// The location of a unit direction in the picture, for samples of any level. In a picture of a place: that of
+    /// (x, y, 0), to the right and up from the middle, the longer side from -1 to 1.
     pub fn place(&self, dir_planet: DVec3) -> Place {
         match &self.texels {
             Texels::Grey16(raster) => raster.place(dir_planet),
@@ -67,7 +99,7 @@ impl Picture {
         }
     }
 
-    /// The value at a location, and its gradient by the direction.
+    /// The value at a location, and its gradient by the direction, or by x and y.
     pub fn sample(&self, place: &Place, level: usize) -> (f64, DVec3) {
         match &self.texels {
             Texels::Grey16(raster) => {

@@ -1,14 +1,14 @@
 //! Opens the file of a picture, or takes its bytes, and chooses the decoder by the first of them.
 
 use super::budget::Budget;
-use super::pixels::{Picture, PictureLayout};
+use super::pixels::{Picture, PictureExtent};
 use super::{from_exr, from_png};
 use crate::planet::open::{Opened, open};
 use std::io::{self, BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
-/// Reads a picture in a layout. An error says what is wrong with the file and what would be right.
-pub(super) fn read(path: &Path, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
+/// Reads a picture that covers this. An error says what is wrong with the file and what would be right.
+pub(super) fn read(path: &Path, extent: PictureExtent, budget: &mut Budget) -> Result<Picture, String> {
     let shown = path.display();
     let file = match open(path) {
         Ok(Opened::File(file)) => BufReader::new(file),
@@ -21,20 +21,20 @@ pub(super) fn read(path: &Path, layout: PictureLayout, budget: &mut Budget) -> R
         }
         Err(error) => return Err(format!("{shown} cannot be read: {error}")),
     };
-    decoded(file, layout, budget).map_err(|problem| format!("{shown} {problem}"))
+    decoded(file, extent, budget).map_err(|problem| format!("{shown} {problem}"))
 }
 
 /// As [`read`], of the bytes of a file.
-pub(super) fn read_bytes(bytes: &[u8], layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
-    decoded(Cursor::new(bytes), layout, budget)
+pub(super) fn read_bytes(bytes: &[u8], extent: PictureExtent, budget: &mut Budget) -> Result<Picture, String> {
+    decoded(Cursor::new(bytes), extent, budget)
 }
 
-fn decoded(mut file: impl BufRead + Seek, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
+fn decoded(mut file: impl BufRead + Seek, extent: PictureExtent, budget: &mut Budget) -> Result<Picture, String> {
     let mut start = [0; 4];
     let known = file.read_exact(&mut start).and_then(|()| file.rewind()).is_ok();
     match start {
-        [0x89, b'P', b'N', b'G'] if known => from_png::read(file, layout, budget),
-        [0x76, 0x2f, 0x31, 0x01] if known => from_exr::read(file, layout, budget),
+        [0x89, b'P', b'N', b'G'] if known => from_png::read(file, extent, budget),
+        [0x76, 0x2f, 0x31, 0x01] if known => from_exr::read(file, extent, budget),
         _ => Err("is neither PNG nor OpenEXR; save the picture as one of them".to_owned()),
     }
 }

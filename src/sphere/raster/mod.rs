@@ -11,11 +11,14 @@
 //!   camera in the centre with a field of view of 90°, mirrored. North is up; the right edge of the four around the
 //!   equator is east; the bottom edge of +Z and the top edge of -Z meet +X. Faces overlap by two texels and are
 //!   blended there.
+//! - A *flat* raster covers a place, not the sphere: a rectangle with x to the right and y up from its middle, the
+//!   longer side from -1 to 1. Beyond its edges the texels of the edges go on.
 //!
 //! Coarser levels, each half as fine, serve distant points. Everything is f64 with correctly rounded operations and
 //! `libm`: the same bits on every machine.
 
 mod cube;
+mod flat;
 mod globe;
 mod near;
 mod spline;
@@ -23,6 +26,7 @@ mod texels;
 
 use cube::{Cube, MARGIN};
 pub use cube::{cube_direction, cube_point};
+use flat::Flat;
 use glam::DVec3;
 use globe::Globe;
 use near::Ranges;
@@ -42,6 +46,7 @@ pub struct Raster<T> {
 enum Level<T> {
     Globe(Globe<T>),
     Cube(Cube<T>),
+    Flat(Flat<T>),
 }
 
 /// Least side of the coarsest level, in texels.
@@ -75,16 +80,31 @@ impl<T: Texel> Raster<T> {
         Self::new(levels.into_iter().map(|(side, texels)| Level::Cube(Cube::new(side, &texels))).collect())
     }
 
+    /// A flat raster of rows of `width` texels, top row first; at least 4 each way.
+    pub fn flat(width: usize, texels: Vec<T>) -> Self {
+        let mut levels = vec![Flat::new(width, texels)];
+        while let Some(Flat { width, texels, .. }) = levels.last()
+            && let (width, height) = (*width, texels.len() / *width)
+            && width.min(height) / 2 >= LEAST_SIDE
+        {
+            levels.push(Flat::new(width / 2, shrunk(texels, [width, height], [width / 2, height / 2])));
+        }
+        Self::new(levels.into_iter().map(Level::Flat).collect())
+    }
+
     fn new(levels: Vec<Level<T>>) -> Self {
         let bounds = levels.first().map_or((0.0, 0.0), |finest| match finest {
             Level::Globe(globe) => globe.bounds(),
             Level::Cube(cube) => range(&cube.texels),
+            Level::Flat(flat) => range(&flat.texels),
         });
         let ranges = levels.first().map_or_else(
             || Ranges::new(&[], 1),
             |finest| match finest {
                 Level::Globe(globe) => Ranges::new(&globe.texels, 2 * globe.height),
                 Level::Cube(cube) => Ranges::new(&cube.texels, cube.side + 2 * MARGIN),
+                // Only its whole range is asked for.
+                Level::Flat(_) => Ranges::new(&[], 1),
             },
         );
         Self { levels, ranges, bounds }
@@ -95,23 +115,25 @@ impl<T: Texel> Raster<T> {
         self.bounds
     }
 
-    /// The finest level whose texels are no closer together than points `spacing_rad` apart; 0 is the raster itself.
+    /// The finest level whose texels are no closer together than points `spacing_rad` apart; 0 is the raster itself. Of
+    /// a flat raster the spacing counts as its positions do.
     pub fn level_for(&self, spacing_rad: f64) -> usize {
         let too_fine = |level: &&Level<T>| {
             let texel_rad = match level {
                 Level::Globe(globe) => PI / globe.height as f64,
                 Level::Cube(cube) => 0.5 * PI / cube.side as f64,
+                Level::Flat(flat) => flat.texel(),
             };
             texel_rad < spacing_rad
         };
         self.levels.iter().take_while(too_fine).count().min(self.levels.len() - 1)
     }
 
-    /// The position of a unit direction on the raster, for samples of any level.
+    /// The position of a unit direction on the raster, for samples of any level; of a flat raster, of (x, y, 0).
     pub fn place(&self, dir: DVec3) -> Place {
         match &self.levels[0] {
             Level::Globe(_) => Place::on_globe(dir),
-            Level::Cube(_) => Place { dir, lon_rad: 0.0, from_pole_rad: 0.0 },
+            Level::Cube(_) | Level::Flat(_) => Place { dir, lon_rad: 0.0, from_pole_rad: 0.0 },
         }
     }
 
@@ -121,12 +143,16 @@ impl<T: Texel> Raster<T> {
     }
 
     /// The value at a position, and its gradient by the direction. Only the tangential part of the gradient means
-    /// anything.
+    /// anything. Of a flat raster the gradient is by x and y.
     #[inline(always)]
     pub fn sample(&self, place: &Place, level: usize) -> (f64, DVec3) {
         match &self.levels[level] {
             Level::Globe(globe) => globe.sample(place),
             Level::Cube(cube) => cube.sample(place.dir),
+            Level::Flat(flat) => {
+                let (value, by_x, by_y) = flat.sample(place.dir.x, place.dir.y);
+                (value, DVec3::new(by_x, by_y, 0.0))
+            }
         }
     }
 }

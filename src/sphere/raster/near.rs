@@ -103,6 +103,7 @@ impl<T: Texel> Raster<T> {
         let (low, high) = match &self.levels[0] {
             Level::Globe(globe) => globe.bounds_near(&self.ranges, dir, angle_rad),
             Level::Cube(cube) => cube.bounds_near(&self.ranges, dir, angle_rad),
+            Level::Flat(_) => (lo, hi),
         };
         (low.max(lo), high.min(hi))
     }

@@ -6,6 +6,7 @@ use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
 use super::path::{self, Arc, angle_of};
 use super::smooth::Lattice;
+use super::stamp::{Stamp, Stamped};
 use super::tool::{At, Change, CompiledTool, falloff, rise};
 use super::widening::Widening;
 use crate::planet::edits::MOST_LIMIT_M;
@@ -40,6 +41,8 @@ pub(super) struct CompiledEdit {
     outline: Option<Noise>,
     /// Noise of rough ground.
     rough: Option<Noise>,
+    /// The picture of a stamp.
+    stamp: Option<Stamp>,
     /// The lattice of smooth ground.
     pub(super) smooth: Option<Lattice>,
     /// Heights at which the edit ends, and whether it acts above each.
@@ -68,7 +71,7 @@ struct Nearest {
 
 /// What an edit does at a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Effect {
+pub(super) struct Effect<'a> {
     pub(super) change_m: f64,
     /// Derivative of the new height by the old one.
     pub(super) by_ground: f64,
@@ -80,16 +83,20 @@ pub(super) struct Effect {
     /// Derivatives by the two noises.
     outline: Option<(f64, Sampled)>,
     rough: Option<(f64, Sampled)>,
+    /// Derivative by the value of a picture.
+    stamped: Option<(f64, Stamped<'a>)>,
 }
 
-impl Effect {
+impl Effect<'_> {
     /// The gradient by the direction that points so far apart can show.
     pub(super) fn gradient(&self, spacing_rad: f64) -> DVec3 {
         let noisy = |part: &Option<(f64, Sampled)>| {
             part.as_ref().map_or(DVec3::ZERO, |(by_noise, noise)| noise.gradient(spacing_rad) * *by_noise)
         };
         let seen = outline::seen(self.feature_rad, spacing_rad, LEAST_POINTS);
-        self.smooth * seen + self.ground + noisy(&self.outline) * seen + noisy(&self.rough)
+        let stamped = self.stamped.as_ref();
+        let stamped = stamped.map_or(DVec3::ZERO, |(by_value, stamped)| stamped.gradient(spacing_rad) * *by_value);
+        self.smooth * seen + self.ground + noisy(&self.outline) * seen + noisy(&self.rough) + stamped
     }
 }
 
@@ -126,6 +133,10 @@ impl CompiledEdit {
             Tool::Roughen(rough) => Some(Noise::new(edit.seed ^ 0x5C07, rough.wavelength_km * 1000.0 / radius_m)),
             _ => None,
         };
+        let stamp = match &edit.tool {
+            Tool::Picture(stamp) => Stamp::new(stamp, &arcs),
+            _ => None,
+        };
         let heights = arcs.iter().flat_map(|arc| arc.values);
         let heights_m = heights.fold((f64::MAX, f64::MIN), |(lo, hi), h| (lo.min(h), hi.max(h)));
         let mut compiled = Self {
@@ -137,6 +148,7 @@ impl CompiledEdit {
             raggedness: edit.raggedness,
             outline: (edit.raggedness > 0.0).then(|| Noise::new(edit.seed, radius_rad)),
             rough,
+            stamp,
             smooth,
             limits,
             range: tool.range(heights_m).then(Widening::by(ROUNDING_M, ROUNDING_M)),
@@ -168,6 +180,7 @@ impl CompiledEdit {
         if let Tool::Smooth(smooth) = &edit.tool {
             common.add_f64(smooth.size);
         }
+        self.stamp.iter().flat_map(Stamp::content).for_each(|number| common.add(number));
         // Each place of a stamp acts for itself.
         let size = if self.is_stamp { 1 } else { PIECE };
         let piece = |(number, arcs): (usize, &[Arc])| {
@@ -183,6 +196,10 @@ impl CompiledEdit {
             }
             arcs.iter().flat_map(|arc| arc.values).for_each(|value| hash.add_f64(value));
             arcs.iter().for_each(|arc| hash.add_f64(arc.scale));
+            if let Some(stamp) = &self.stamp {
+                let up = stamp.axes(number * size)[1];
+                up.to_array().into_iter().for_each(|part| hash.add_f64(part));
+            }
             let (first, count) = ((number * size) as u32, arcs.len() as u32);
             Piece { first, count, middle, chord: chord_of(angle_rad), hash: hash.0 }
         };
@@ -273,7 +290,7 @@ impl CompiledEdit {
         arcs: &Arcs<'_>,
         ground_m: f64,
         smooth: Option<(f64, DVec3)>,
-    ) -> Option<Effect> {
+    ) -> Option<Effect<'_>> {
         let place = self.place(dir, arcs)?;
         let nearest = place.nearest;
         let arc = &self.arcs[nearest.arc as usize];
@@ -290,6 +307,8 @@ impl CompiledEdit {
             return None;
         }
         let rough = self.rough.as_ref().map(|noise| noise.at(dir));
+        let copy = nearest.arc as usize;
+        let stamped = self.stamp.as_ref().map(|stamp| stamp.at(dir, copy, arc.a, radius_rad));
         let has_sides = matches!(self.tool, CompiledTool::Fault { .. } | CompiledTool::Coast { .. });
         let line = if has_sides {
             Some(arc.value(&arc.foot(dir)))
@@ -305,7 +324,11 @@ impl CompiledEdit {
             t,
             core: self.core,
             noise: rough.map_or(0.0, |rough| rough.value),
-            line: line.map_or(ground_m, |line| line.0),
+            line: match &stamped {
+                Some(stamped) => stamped.value,
+                None if matches!(self.tool, CompiledTool::Picture { .. }) => 0.0,
+                None => line.map_or(ground_m, |line| line.0),
+            },
             side,
             scale: arc.scale,
         };
@@ -313,7 +336,7 @@ impl CompiledEdit {
         for (level_m, above) in self.limits.into_iter().flatten() {
             change = limited(change, ground_m, level_m, above);
         }
-        if change.change_m == 0.0 && change.by_t == 0.0 && change.by_ground == 0.0 {
+        if change.change_m == 0.0 && change.by_t == 0.0 && change.by_ground == 0.0 && change.by_line == 0.0 {
             return None;
         }
         // Where the edit is level, no direction leads away from its line.
@@ -334,6 +357,7 @@ impl CompiledEdit {
             ground,
             outline: ragged.map(|noise| (change.by_t * plain * by_noise, noise)),
             rough: rough.map(|rough| (change.by_noise, rough)),
+            stamped: stamped.map(|stamped| (change.by_line, stamped)),
         })
     }
 

@@ -4,6 +4,7 @@
 //! - `tool`: what each tool does to a height, with derivatives and bounds
 //! - `widening`: what edits do to the bounds of heights
 //! - `smooth`: ground without fine detail, around a point
+//! - `stamp`: height pictures as stamps
 //! - `paint`: painted climate and clouds
 //! - `outline`: noise for ragged outlines and rough ground
 //! - `compiled`: one edit: its tool, its line, the pieces of that line
@@ -25,6 +26,7 @@ mod paint;
 mod path;
 mod roster;
 mod smooth;
+mod stamp;
 mod tool;
 mod widening;
 

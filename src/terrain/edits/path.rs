@@ -24,6 +24,8 @@ pub(super) struct Arc {
     pub(super) values: [f64; 2],
     /// Size of a stamp's copy relative to the stamp.
     pub(super) scale: f64,
+    /// By how much a stamp's copy is turned, -1 to 1.
+    pub(super) turned: f64,
 }
 
 /// The place of an arc that is nearest to a point.
@@ -42,7 +44,7 @@ impl Arc {
         let normal = a.cross(b - a);
         let length = normal.length();
         let normal = if length > 0.0 { normal / length } else { DVec3::ZERO };
-        Self { a, b, normal, tangents: [normal.cross(a), normal.cross(b)], values, scale: 1.0 }
+        Self { a, b, normal, tangents: [normal.cross(a), normal.cross(b)], values, scale: 1.0, turned: 0.0 }
     }
 
     /// Squared chord to the nearest place, and whether that lies between the ends.
@@ -125,7 +127,8 @@ pub(super) fn places(edit: &GroundEdit, radius_m: f64) -> Vec<Arc> {
             let at = (middle * cosine + (east * libm::cos(turn) + north * libm::sin(turn)) * sine).normalize();
             let least = edit.smallest;
             let scale = least / (1.0 - random(3) * (1.0 - least * least)).sqrt();
-            places.push(Arc { scale, ..Arc::new(at, at, [0.0; 2]) });
+            let turned = 2.0 * random(4) - 1.0;
+            places.push(Arc { scale, turned, ..Arc::new(at, at, [0.0; 2]) });
         }
     }
     places

@@ -6,9 +6,10 @@ use super::outline;
 use super::paint::Paint;
 use super::widening::Widening;
 use crate::planet::edits::{
-    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode, Raise,
-    Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Volcano, Wall,
+    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode,
+    PictureStamp, Raise, Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Volcano, Wall,
 };
+use crate::planet::picture::PictureExtent;
 use crate::planet::{GroundEdit, Tool};
 
 /// Radii to which the ejecta of a crater reach.
@@ -34,7 +35,8 @@ pub(super) struct At {
     pub(super) core: f64,
     /// Noise of rough ground.
     pub(super) noise: f64,
-    /// Height of the line of a road, or of smooth ground; the slip of a fault, the share of a coast.
+    /// Height of the line of a road, or of smooth ground; the slip of a fault, the share of a coast; of a picture, the
+    /// value over its level.
     pub(super) line: f64,
     /// 1 on the left side of the line, -1 on the right.
     pub(super) side: f64,
@@ -90,6 +92,11 @@ pub(super) enum CompiledTool {
         sea_m: f64,
         height_m: f64,
         foot_m: f64,
+    },
+    Picture {
+        height_m: f64,
+        /// Least and greatest value over the level.
+        range: (f64, f64),
     },
     Ridge {
         height_m: f64,
@@ -153,6 +160,12 @@ fn dome(t: f64) -> (f64, f64) {
 impl CompiledTool {
     pub(super) fn new(edit: &GroundEdit, sea_m: f64) -> Self {
         match edit.tool {
+            Tool::Picture(PictureStamp { ref file, height_m, level, .. }) => {
+                let (lo, hi) = file.picture(PictureExtent::Place).map_or((level, level), |picture| picture.bounds());
+                // The weights of a spline sum to 1 up to rounding.
+                let rounding = 1e-9 * (1.0 + lo.abs().max(hi.abs()));
+                Self::Picture { height_m, range: ((lo - level).min(0.0) - rounding, (hi - level).max(0.0) + rounding) }
+            }
             Tool::Raise(Raise { amount_m }) => Self::Raise { amount_m },
             Tool::Flatten(Flatten { height_m, strength }) => Self::Flatten { height_m, strength },
             Tool::Roughen(Roughen { amplitude_m, .. }) => Self::Roughen { amplitude_m },
@@ -205,6 +218,8 @@ impl CompiledTool {
             Self::Wall { height_m, top } => (12, [height_m, top, 0.0, 0.0]),
             Self::Fault { throw_m, scarp, drop } => (13, [throw_m, scarp, drop, 0.0]),
             Self::Coast { sea_m, land_m, depth_m, flip } => (14, [sea_m, land_m, depth_m, f64::from(u8::from(flip))]),
+            // The pixels are added by the edit.
+            Self::Picture { height_m, range: (lo, hi) } => (15, [height_m, lo, hi, 0.0]),
             Self::Paint(Paint::Moisture { value, sets }) => (20, [value, f64::from(u8::from(sets)), 0.0, 0.0]),
             Self::Paint(Paint::Temperature { value_c, sets }) => (21, [value_c, f64::from(u8::from(sets)), 0.0, 0.0]),
             Self::Paint(Paint::Biome { key, strength }) => (22, [strength, f64::from(u32::from(key)), 0.0, 0.0]),
@@ -297,6 +312,10 @@ impl CompiledTool {
                     ..Change::default()
                 }
             }
+            Self::Picture { height_m, .. } => {
+                let change = added((height_m * at.line * weight, height_m * at.line * weight_by_t));
+                Change { by_line: height_m * weight * at.scale, ..change }
+            }
             Self::Ridge { height_m, softness } => {
                 let (crest, by_t) = cone(t, 1.0 - softness);
                 added((height_m * crest, height_m * by_t))
@@ -354,6 +373,10 @@ impl CompiledTool {
             Self::Volcano { height_m, caldera_m, .. } => Widening::by(caldera_m, height_m),
             Self::Mesa { height_m, .. } | Self::Ridge { height_m, .. } | Self::Wall { height_m, .. } => {
                 Widening::by(0.0, height_m)
+            }
+            Self::Picture { height_m, range: (lo, hi) } => {
+                let (a, b) = (height_m * lo, height_m * hi);
+                Widening::by(-a.min(b), a.max(b))
             }
             Self::Island { sea_m, height_m, foot_m } => {
                 Widening::to(f64::INFINITY, sea_m + height_m).then(Widening::by(0.0, FOOT * (height_m + foot_m)))
