@@ -91,7 +91,7 @@ impl Terrain {
         before: Option<u32>,
     ) {
         let ground_before = |slot: u32, dirs: &[DVec3]| self.ground_before(edits, slot, dirs);
-        let ground = edits::Ground { before: &ground_before, nodes: &self.nodes };
+        let ground = edits::Ground { before: &ground_before, memory: &self.memory };
         edits.apply(dirs, spacings_rad, heights, self.stack.limits_m(), near, (&ground, before));
     }
 

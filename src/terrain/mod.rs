@@ -74,7 +74,7 @@ use crate::simd::Simd;
 use biome::CompiledBiomes;
 use climate::{CompiledClimate, Rules};
 use coarse::{CellFields, LayerGround};
-use edits::{Edits, Near, Nodes, Painted};
+use edits::{Edits, Memory, Near, Painted};
 use glam::DVec3;
 use height::LayerStack;
 use landform::{Landform, Maps};
@@ -102,8 +102,8 @@ pub struct Terrain {
     pub(crate) climate: CompiledClimate,
     /// Ground edits, if any is on.
     edits: Option<Arc<Edits>>,
-    /// What edits that smooth know of the ground.
-    nodes: Arc<Nodes>,
+    /// What edits that read the ground know of it.
+    memory: Arc<Memory>,
     /// Biome relief, if any biome has one.
     pub(crate) relief: Option<Relief>,
     keys: Keys,
@@ -185,7 +185,7 @@ impl Terrain {
             stack,
             under,
             edits,
-            nodes: Arc::default(),
+            memory: Arc::default(),
             climate,
             relief,
             keys,
@@ -210,7 +210,7 @@ impl Terrain {
             Arc::make_mut(under).set_maps(&Maps { plates, weather: None });
         }
         self.climate.world = world;
-        self.nodes = Arc::default();
+        self.memory = Arc::default();
         self.height_bounds_m = self.with_relief(self.with_edits(self.stack.bounds_m(), None));
         self
     }

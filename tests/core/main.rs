@@ -7,7 +7,7 @@
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
-//! - `sculpt`, `stamp`, `paint`: ground edits
+//! - `sculpt`, `stamp`, `erosion`, `paint`: ground edits
 //! - `system`: orbits and resonances
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
@@ -15,6 +15,7 @@
 
 mod allocations;
 mod atmosphere;
+mod erosion;
 mod header;
 mod heightmap;
 mod idle;

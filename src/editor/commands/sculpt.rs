@@ -20,6 +20,8 @@ const TOOLS: [(&str, &str); Tool::NAMES.len()] = [
     ("Sculpt: canyon", "Draw a valley with steep walls, point after point."),
     ("Sculpt: road", "Draw a level bed, point after point."),
     ("Sculpt: smooth", "Smooth fine detail away with drags."),
+    ("Sculpt: hydraulic erosion", "Carve gullies down the slopes with drags."),
+    ("Sculpt: thermal erosion", "Crumble what stands out with drags."),
     ("Sculpt: wall", "Draw a rampart or dam, point after point."),
     ("Sculpt: fault", "Draw a step in the ground, point after point."),
     ("Sculpt: coast", "Draw a coast, point after point: land on the left side."),

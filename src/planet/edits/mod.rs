@@ -15,8 +15,8 @@ pub use list::GroundEdits;
 pub(crate) use list::Shared;
 pub use points::{EditPoint, EditPoints};
 pub use tools::{
-    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode,
-    PictureStamp, Raise, Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Tool, Volcano, Wall,
+    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, Mesa, MoisturePaint, PaintMode,
+    PictureStamp, Raise, Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Thermal, Tool, Volcano, Wall,
 };
 
 use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, count, linear, log, params};

@@ -3,7 +3,7 @@
 
 use crate::planet::biome::UNSET_KEY;
 use crate::planet::kinds::kinds;
-use crate::planet::param::{Domain, Stage, Unit, choice, linear, log, params};
+use crate::planet::param::{Domain, Stage, Unit, choice, count, linear, log, params};
 use crate::planet::picture::PictureFile;
 
 kinds! {
@@ -35,6 +35,10 @@ kinds! {
     Road(Road) = "Road",
     /// Smooths away what is finer than a part of the brush.
     Smooth(Smooth) = "Smooth",
+    /// Carves gullies down the slopes, as running water does.
+    Hydraulic(Hydraulic) = "Hydraulic erosion",
+    /// Crumbles what stands out, and fills hollows with it, as frost does.
+    Thermal(Thermal) = "Thermal erosion",
     /// A rampart or dam with a level top along a line.
     Wall(Wall) = "Wall",
     /// A step in the ground along a line: the left side rises, the right side sinks.
@@ -55,6 +59,11 @@ impl Tool {
     /// Whether the tool acts around each of its points alone, and not along the line through them.
     pub fn is_stamp(&self) -> bool {
         matches!(self, Tool::Crater(_) | Tool::Volcano(_) | Tool::Mesa(_) | Tool::Island(_) | Tool::Picture(_))
+    }
+
+    /// Whether the tool reads the ground around a point, as earlier edits left it.
+    pub fn reads_ground(&self) -> bool {
+        matches!(self, Tool::Smooth(_) | Tool::Hydraulic(_) | Tool::Thermal(_))
     }
 
     /// Whether the tool acts along a line that is drawn point by point.
@@ -209,6 +218,34 @@ params! {
         /// Size of what is smoothed away, as a share of the radius: ground finer than that becomes even.
         size: f64 = 0.5, "Size", Unit::None, log(0.05, 1.0), Stage::Height;
         /// Share of the way to smooth ground.
+        strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + gullies * w`: crests keep their height. Gullies run down the slopes of the ground around, are as deep as it is
+    /// steep, and end where it is level.
+    pub struct Hydraulic {
+        /// Distance between the largest gullies, as a share of the radius.
+        spacing: f64 = 0.15, "Spacing", Unit::None, log(0.02, 0.5), Stage::Height;
+        /// Depth of gullies: at 1 the flanks of the largest are as steep as the ground.
+        depth: f64 = 1.5, "Depth", Unit::None, linear(0.0, 4.0), Stage::Height;
+        /// Number of sizes of gullies: each further one branches off those of twice its size.
+        octaves: u32 = 4, "Octaves", Unit::None, count(1, 6), Stage::Height;
+        /// Slope from which gullies become no deeper.
+        steepest_deg: f64 = 25.0, "Steepest", Unit::Degrees, linear(1.0, 60.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + (s + m * tanh((h - s) / m) - h) * strength * w`: what stands out of smooth ground `s`, or lies below it, by
+    /// more than `m` crumbles; `m` is half the size by the tangent of the talus slope.
+    pub struct Thermal {
+        /// Size of the largest forms that crumble, as a share of the radius.
+        size: f64 = 0.25, "Size", Unit::None, log(0.05, 1.0), Stage::Height;
+        /// Slope of the talus: gentler ground stays.
+        talus_deg: f64 = 15.0, "Talus slope", Unit::Degrees, log(0.2, 60.0), Stage::Height;
+        /// Share of the way to crumbled ground.
         strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Height;
     }
 }

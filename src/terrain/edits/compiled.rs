@@ -1,10 +1,12 @@
 //! One edit, compiled: its tool, its line, and the pieces of that line.
 
+use super::gullies::{Carved, Gullies};
 use super::index::{Hash, Piece, chord_of};
 use super::near::Arcs;
 use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
 use super::path::{self, Arc, angle_of};
+use super::reading::{Read, Reader};
 use super::smooth::Lattice;
 use super::stamp::{Stamp, Stamped};
 use super::tool::{At, Change, CompiledTool, falloff, rise};
@@ -43,8 +45,8 @@ pub(super) struct CompiledEdit {
     rough: Option<Noise>,
     /// The picture of a stamp.
     stamp: Option<Stamp>,
-    /// The lattice of smooth ground.
-    pub(super) smooth: Option<Lattice>,
+    /// How the edit reads the ground around a point.
+    pub(super) reader: Option<Reader>,
     /// Heights at which the edit ends, and whether it acts above each.
     limits: [Option<(f64, bool)>; 3],
     /// What it does to the bounds of heights. Conservative.
@@ -83,8 +85,24 @@ pub(super) struct Effect<'a> {
     /// Derivatives by the two noises.
     outline: Option<(f64, Sampled)>,
     rough: Option<(f64, Sampled)>,
-    /// Derivative by the value of a picture.
-    stamped: Option<(f64, Stamped<'a>)>,
+    /// Derivative by the value of a picture, or by the height of gullies.
+    detail: Option<(f64, Detail<'a>)>,
+}
+
+/// What changes within the reach of an edit, and is shaded as finely as points can show.
+#[derive(Clone, Copy, Debug)]
+enum Detail<'a> {
+    Picture(Stamped<'a>),
+    Gullies(Carved),
+}
+
+impl Detail<'_> {
+    fn gradient(&self, spacing_rad: f64) -> DVec3 {
+        match self {
+            Detail::Picture(stamped) => stamped.gradient(spacing_rad),
+            Detail::Gullies(carved) => carved.gradient(spacing_rad),
+        }
+    }
 }
 
 impl Effect<'_> {
@@ -94,16 +112,23 @@ impl Effect<'_> {
             part.as_ref().map_or(DVec3::ZERO, |(by_noise, noise)| noise.gradient(spacing_rad) * *by_noise)
         };
         let seen = outline::seen(self.feature_rad, spacing_rad, LEAST_POINTS);
-        let stamped = self.stamped.as_ref();
-        let stamped = stamped.map_or(DVec3::ZERO, |(by_value, stamped)| stamped.gradient(spacing_rad) * *by_value);
-        self.smooth * seen + self.ground + noisy(&self.outline) * seen + noisy(&self.rough) + stamped
+        let detail = self.detail.as_ref();
+        let detail = detail.map_or(DVec3::ZERO, |(by_value, detail)| detail.gradient(spacing_rad) * *by_value);
+        self.smooth * seen + self.ground + noisy(&self.outline) * seen + noisy(&self.rough) + detail
     }
 }
 
 impl CompiledEdit {
     pub(super) fn new(edit: &GroundEdit, radius_m: f64, sea_m: Option<f64>) -> Self {
         let radius_rad = edit.radius_km * 1000.0 / radius_m;
-        let tool = CompiledTool::new(edit, sea_m.unwrap_or(0.0));
+        let reader = match &edit.tool {
+            Tool::Smooth(smooth) => Some(Reader::Smooth(Lattice::new(smooth.size * radius_rad))),
+            Tool::Thermal(thermal) => Some(Reader::Smooth(Lattice::new(thermal.size * radius_rad))),
+            Tool::Hydraulic(gullies) => Some(Reader::Gullies(Gullies::new(gullies, edit.seed, radius_rad, radius_m))),
+            _ => None,
+        };
+        let depth_m = if let Some(Reader::Gullies(gullies)) = &reader { gullies.depth_m() } else { 0.0 };
+        let tool = CompiledTool::new(edit, sea_m.unwrap_or(0.0), depth_m);
         let points = &edit.points.0;
         let mut arcs = if edit.tool.is_stamp() { path::places(edit, radius_m) } else { path::arcs(points, radius_rad) };
         match tool {
@@ -115,10 +140,6 @@ impl CompiledEdit {
             CompiledTool::Coast { .. } => path::set_values(&mut arcs, |from, to| rise(from.min(to) / radius_rad).0),
             _ => {}
         }
-        let smooth = match &edit.tool {
-            Tool::Smooth(smooth) => Some(Lattice::new(smooth.size * radius_rad)),
-            _ => None,
-        };
         let sea_limit = match edit.limit {
             Limit::Everywhere => None,
             Limit::AboveSea => Some((sea_m.unwrap_or(0.0), true)),
@@ -149,7 +170,7 @@ impl CompiledEdit {
             outline: (edit.raggedness > 0.0).then(|| Noise::new(edit.seed, radius_rad)),
             rough,
             stamp,
-            smooth,
+            reader,
             limits,
             range: tool.range(heights_m).then(Widening::by(ROUNDING_M, ROUNDING_M)),
             context: 0,
@@ -177,8 +198,14 @@ impl CompiledEdit {
         if let Tool::Roughen(rough) = &edit.tool {
             common.add_f64(rough.wavelength_km);
         }
-        if let Tool::Smooth(smooth) = &edit.tool {
-            common.add_f64(smooth.size);
+        match &edit.tool {
+            Tool::Smooth(smooth) => common.add_f64(smooth.size),
+            Tool::Thermal(thermal) => common.add_f64(thermal.size),
+            Tool::Hydraulic(gullies) => {
+                common.add(u64::from(gullies.octaves));
+                [gullies.spacing, gullies.steepest_deg].into_iter().for_each(|number| common.add_f64(number));
+            }
+            _ => {}
         }
         self.stamp.iter().flat_map(Stamp::content).for_each(|number| common.add(number));
         // Each place of a stamp acts for itself.
@@ -281,16 +308,10 @@ impl CompiledEdit {
         self.place(dir, arcs).is_some()
     }
 
-    /// What the edit does to ground of a height, by these of its arcs. None if nothing. `smooth`: the smooth ground
-    /// and its gradient, for an edit that smooths.
+    /// What the edit does to ground of a height, by these of its arcs. None if nothing. `read`: what it has read of the
+    /// ground around.
     #[inline]
-    pub(super) fn effect(
-        &self,
-        dir: DVec3,
-        arcs: &Arcs<'_>,
-        ground_m: f64,
-        smooth: Option<(f64, DVec3)>,
-    ) -> Option<Effect<'_>> {
+    pub(super) fn effect(&self, dir: DVec3, arcs: &Arcs<'_>, ground_m: f64, read: Option<Read>) -> Option<Effect<'_>> {
         let place = self.place(dir, arcs)?;
         let nearest = place.nearest;
         let arc = &self.arcs[nearest.arc as usize];
@@ -308,7 +329,15 @@ impl CompiledEdit {
         }
         let rough = self.rough.as_ref().map(|noise| noise.at(dir));
         let copy = nearest.arc as usize;
-        let stamped = self.stamp.as_ref().map(|stamp| stamp.at(dir, copy, arc.a, radius_rad));
+        let (detail, smooth) = match (&self.stamp, read) {
+            (Some(stamp), _) => {
+                let stamped = stamp.at(dir, copy, arc.a, radius_rad);
+                (Some((stamped.value, Detail::Picture(stamped))), None)
+            }
+            (None, Some(Read::Carved(carved))) => (Some((carved.height_m, Detail::Gullies(carved))), None),
+            (None, Some(Read::Smooth(height_m, gradient))) => (None, Some((height_m, gradient))),
+            (None, None) => (None, None),
+        };
         let has_sides = matches!(self.tool, CompiledTool::Fault { .. } | CompiledTool::Coast { .. });
         let line = if has_sides {
             Some(arc.value(&arc.foot(dir)))
@@ -324,8 +353,8 @@ impl CompiledEdit {
             t,
             core: self.core,
             noise: rough.map_or(0.0, |rough| rough.value),
-            line: match &stamped {
-                Some(stamped) => stamped.value,
+            line: match &detail {
+                Some((value, _)) => *value,
                 None if matches!(self.tool, CompiledTool::Picture { .. }) => 0.0,
                 None => line.map_or(ground_m, |line| line.0),
             },
@@ -348,7 +377,7 @@ impl CompiledEdit {
         };
         let line_by_dir = line.map_or(DVec3::ZERO, |line| line.1) * change.by_line;
         let (line_by_dir, ground) =
-            if self.smooth.is_some() { (DVec3::ZERO, line_by_dir) } else { (line_by_dir, DVec3::ZERO) };
+            if smooth.is_some() { (DVec3::ZERO, line_by_dir) } else { (line_by_dir, DVec3::ZERO) };
         Some(Effect {
             change_m: change.change_m,
             by_ground: 1.0 + change.by_ground,
@@ -357,7 +386,7 @@ impl CompiledEdit {
             ground,
             outline: ragged.map(|noise| (change.by_t * plain * by_noise, noise)),
             rough: rough.map(|rough| (change.by_noise, rough)),
-            stamped: stamped.map(|stamped| (change.by_line, stamped)),
+            detail: detail.map(|(_, detail)| (change.by_line, detail)),
         })
     }
 

@@ -1,27 +1,26 @@
-//! What edits that smooth depend on besides their own numbers: the edits before them that are near. It is part of
+//! What edits that read the ground depend on besides their own numbers: the edits before them that are near. It is part of
 //! their content, so that tiles are built again when one of those changes.
 
 use super::compiled::CompiledEdit;
 use super::index::{Hash, Index, Piece};
 use super::path::angle_of;
+use super::reading::Reader;
 use super::roster::{Changes, Roster, slot_of};
 use std::sync::Arc;
 
-/// Finds anew the content of the edits that smooth where something changed. Returns these as changes. `index`: that of
+/// Finds anew the content of the edits that read the ground where something changed. Returns these as changes. `index`: that of
 /// the roster after `changes`.
 pub(super) fn refresh(roster: &mut Roster, index: &Index, changes: &Changes) -> Changes {
-    let smoothing: Vec<(u32, Arc<CompiledEdit>)> =
-        roster.smoothing().map(|(slot, edit)| (slot, edit.clone())).collect();
+    let reading: Vec<(u32, Arc<CompiledEdit>)> = roster.reading().map(|(slot, edit)| (slot, edit.clone())).collect();
     let mut refreshed = Changes::default();
-    if smoothing.is_empty() {
+    if reading.is_empty() {
         return refreshed;
     }
     let new = changes.added.iter().filter_map(|slot| roster.edit(*slot).cloned());
     let old = changes.removed.iter().map(|(_, edit)| edit.clone());
     let mut changed: Vec<Arc<CompiledEdit>> = new.chain(old).filter(|edit| edit.paint().is_none()).collect();
-    for (slot, edit) in smoothing {
-        let Some(lattice) = edit.smooth else { continue };
-        let reach_rad = lattice.reach_rad();
+    for (slot, edit) in reading {
+        let Some(reach_rad) = edit.reader.as_ref().map(Reader::reach_rad) else { continue };
         let chord = reach_rad * (1.0 + 1e-9);
         let touches = |piece: &Piece, other: &Piece| other.touches(piece.middle, piece.chord + chord);
         let is_changed = changes.added.contains(&slot)

@@ -3,14 +3,17 @@
 //! - `path`: the line through the points of an edit, and the nearest place of it
 //! - `tool`: what each tool does to a height, with derivatives and bounds
 //! - `widening`: what edits do to the bounds of heights
+//! - `reading`: edits that read the ground around a point
 //! - `smooth`: ground without fine detail, around a point
+//! - `gullies`: gullies down the slopes of that ground
+//! - `memory`: what those have found out, node by node
 //! - `stamp`: height pictures as stamps
 //! - `paint`: painted climate and clouds
 //! - `outline`: noise for ragged outlines and rough ground
 //! - `compiled`: one edit: its tool, its line, the pieces of that line
 //! - `roster`: the edits that are on, in order, from one revision to the next
 //! - `index`: which pieces are near a point, a tile or a disc
-//! - `context`: what edits that smooth depend on
+//! - `context`: what edits that read the ground depend on
 //! - `near`: the parts of them that may act on a run of points
 //!
 //! Edits act in order at each point. One loop over points in f64 serves queries and tiles alike, with basic operations
@@ -19,11 +22,14 @@
 
 mod compiled;
 mod context;
+mod gullies;
 mod index;
+mod memory;
 mod near;
 mod outline;
 mod paint;
 mod path;
+mod reading;
 mod roster;
 mod smooth;
 mod stamp;
@@ -38,18 +44,19 @@ use crate::sphere::NodeId;
 use compiled::CompiledEdit;
 use glam::DVec3;
 use index::{Index, Piece, Walk};
+pub(crate) use memory::Memory;
 use near::Arcs;
 pub(crate) use near::Near;
 pub(crate) use paint::Painted;
 use paint::{Paint, Places};
+use reading::{Reader, Surroundings};
 use roster::{Roster, slot_of};
-pub(crate) use smooth::Nodes;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 use widening::Widening;
 
-/// Smooth edits around a place beyond which its bounds are those of the planet.
-const MOST_SMOOTH: usize = 16;
+/// Edits around a place that read the ground, beyond which its bounds are those of the planet.
+const MOST_READING: usize = 16;
 
 /// The edits of a planet that are on, compiled.
 pub(crate) struct Edits {
@@ -62,15 +69,15 @@ pub(crate) struct Edits {
     /// Those that paint clouds.
     clouds: Index,
     key: Key,
-    /// Whether an edit smooths.
-    smooths: bool,
+    /// Whether an edit reads the ground around a point.
+    reads: bool,
 }
 
 /// The ground before an edit, for those that read it around a point.
 pub(crate) struct Ground<'a> {
     /// Heights as the edits before the one in a slot left them.
     pub(crate) before: &'a dyn Fn(u32, &[DVec3]) -> Vec<f64>,
-    pub(crate) nodes: &'a Nodes,
+    pub(crate) memory: &'a Memory,
 }
 
 impl fmt::Debug for Edits {
@@ -123,7 +130,7 @@ impl Edits {
             clouds: Index::default(),
             places: Places::default(),
             key,
-            smooths: false,
+            reads: false,
         }
     }
 
@@ -136,14 +143,14 @@ impl Edits {
         let mut ground = self.ground.next(&roster, &changes, is_ground);
         let climate = self.climate.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_climate));
         let clouds = self.clouds.next(&roster, &changes, |edit| edit.paint().is_some_and(|paint| !paint.is_climate()));
-        // What smooths the ground depends on the edits before it.
+        // What reads the ground depends on the edits before it.
         let later = context::refresh(&mut roster, &ground, &changes);
         if !later.is_empty() {
             ground = ground.next(&roster, &later, is_ground);
         }
         let places = self.places.next(planet, painted_biomes(planet, &climate));
-        let smooths = roster.smoothing().next().is_some();
-        Self { roster, key: ground.key_of_all(), ground, climate, places, clouds, smooths }
+        let reads = roster.reading().next().is_some();
+        Self { roster, key: ground.key_of_all(), ground, climate, places, clouds, reads }
     }
 
     /// The same edits on a planet whose biome table may be another.
@@ -152,9 +159,9 @@ impl Edits {
         if places == self.places {
             return self.clone();
         }
-        let Self { roster, ground, climate, clouds, key, smooths, .. } = &**self;
+        let Self { roster, ground, climate, clouds, key, reads, .. } = &**self;
         let [ground, climate, clouds] = [ground, climate, clouds].map(Clone::clone);
-        Arc::new(Self { roster: roster.clone(), ground, climate, places, clouds, key: *key, smooths: *smooths })
+        Arc::new(Self { roster: roster.clone(), ground, climate, places, clouds, key: *key, reads: *reads })
     }
 
     /// The key of all edits of the ground.
@@ -197,14 +204,14 @@ impl Edits {
         let end = before.map_or(u32::MAX, |slot| self.roster.rank_of(slot));
         near.each_leaf(Walk::new(&self.ground), &self.roster, dirs, |points, near| {
             let acts = |(slot, _): &(u32, Arcs<'_>)| self.roster.rank_of(*slot) < end;
-            let smooth = self.smooth_heights(dirs, points, near.groups().filter(acts), ground);
+            let around = self.read(dirs, points, near.groups().filter(acts), ground);
             for i in points.iter().map(|point| *point as usize) {
                 for (slot, arcs) in near.groups().filter(acts) {
                     let Some(edit) = self.roster.edit(slot) else { continue };
-                    let smooth = smooth.iter().find(|(of, _)| *of == slot).map(|(_, known)| known);
-                    let smooth = smooth.zip(edit.smooth).filter(|_| edit.reaches(dirs[i], &arcs));
-                    let smooth = smooth.map(|(known, lattice)| lattice.at(dirs[i], known));
-                    let Some(effect) = edit.effect(dirs[i], &arcs, heights.height_m[i], smooth) else { continue };
+                    let around = around.iter().find(|(of, _)| *of == slot).map(|(_, around)| around);
+                    let around = around.zip(edit.reader.as_ref()).filter(|_| edit.reaches(dirs[i], &arcs));
+                    let read = around.and_then(|(around, reader)| reader.at(dirs[i], around));
+                    let Some(effect) = edit.effect(dirs[i], &arcs, heights.height_m[i], read) else { continue };
                     heights.height_m[i] = (heights.height_m[i] + effect.change_m).clamp(limits_m.0, limits_m.1);
                     for (gradient, &spacing_rad) in heights.gradients.iter_mut().zip(spacings_rad) {
                         let before = components(gradient, i);
@@ -215,28 +222,21 @@ impl Edits {
         });
     }
 
-    /// The heights of the nodes that edits which smooth need at points, edit by edit.
-    fn smooth_heights<'a>(
+    /// What edits that read the ground need at points, edit by edit.
+    fn read<'a>(
         &self,
         dirs: &[DVec3],
         points: &[u32],
         groups: impl Iterator<Item = (u32, Arcs<'a>)>,
         ground: &Ground<'_>,
-    ) -> Vec<(u32, smooth::Heights)> {
-        let smoothing = groups.filter_map(|(slot, arcs)| {
+    ) -> Vec<(u32, Surroundings)> {
+        let reading = groups.filter_map(|(slot, arcs)| {
             let edit = self.roster.edit(slot)?;
-            let lattice = edit.smooth?;
-            let mut wanted = smooth::Heights::default();
-            let own = points.iter().filter_map(|point| dirs.get(*point as usize));
-            for &dir in own.filter(|dir| edit.reaches(**dir, &arcs)) {
-                lattice.each_node(dir, |node| {
-                    wanted.insert(node, 0.0);
-                });
-            }
-            ground.nodes.fill(slot, &lattice, &mut wanted, &|dirs| (ground.before)(slot, dirs));
-            Some((slot, wanted))
+            let reader = edit.reader.as_ref()?;
+            let own = points.iter().filter_map(|point| dirs.get(*point as usize).copied());
+            Some((slot, reader.read(slot, own.filter(|dir| edit.reaches(*dir, &arcs)), ground)))
         });
-        smoothing.collect()
+        reading.collect()
     }
 
     /// The paint of the climate at points; nothing if there is none at any.
@@ -281,10 +281,10 @@ impl Edits {
     }
 
     /// How far from a place the ground lies, as an angle, that decides about the ground within an angle of it: farther
-    /// where edits smooth.
+    /// where edits read the ground.
     pub(crate) fn reach_rad(&self, dir: DVec3, angle_rad: f64) -> f64 {
         let (mut reach_rad, mut counted) = (angle_rad, Vec::new());
-        if !self.smooths {
+        if !self.reads {
             return angle_rad;
         }
         loop {
@@ -293,15 +293,15 @@ impl Edits {
             self.ground.each_leaf(Some(disc), &mut |pieces| {
                 for &number in pieces {
                     let slot = slot_of(number);
-                    let smooth = self.roster.edit(slot).and_then(|edit| edit.smooth);
+                    let reader = self.roster.edit(slot).and_then(|edit| edit.reader.as_ref());
                     let touches = self.roster.piece(number).is_some_and(|piece| piece.touches(disc.0, disc.1));
-                    if let Some(lattice) = smooth.filter(|_| touches && !counted.contains(&slot)) {
+                    if let Some(reader) = reader.filter(|_| touches && !counted.contains(&slot)) {
                         counted.push(slot);
-                        reach_rad += lattice.reach_rad();
+                        reach_rad += Reader::reach_rad(reader);
                     }
                 }
             });
-            if counted.len() > MOST_SMOOTH || reach_rad >= std::f64::consts::PI {
+            if counted.len() > MOST_READING || reach_rad >= std::f64::consts::PI {
                 return std::f64::consts::PI;
             }
             if counted.len() == before {
@@ -313,12 +313,12 @@ impl Edits {
     /// Widens the lowest and greatest height of the layers by what the edits do within an angle of a direction (None:
     /// anywhere). Conservative.
     pub(crate) fn bounds_m(&self, (lo, hi): (f64, f64), near: Option<(DVec3, f64)>) -> (f64, f64) {
-        if near.is_none() && !self.smooths {
+        if near.is_none() && !self.reads {
             return self.ground.range().of((lo, hi));
         }
         let near = near.map(|(dir, angle_rad)| (dir, index::chord_of(angle_rad)));
         let is_near = |piece: &Piece| near.is_none_or(|(dir, chord)| piece.touches(dir, chord));
-        if self.smooths {
+        if self.reads {
             // Smooth ground is a mean of the ground of several leaves: all edits count as if they were at one place.
             let mut pieces = Vec::new();
             self.ground.each_leaf(near, &mut |leaf| pieces.extend_from_slice(leaf));

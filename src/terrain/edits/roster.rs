@@ -3,8 +3,8 @@
 
 use super::compiled::CompiledEdit;
 use super::index::Piece;
+use crate::planet::GroundEdits;
 use crate::planet::edits::Shared;
-use crate::planet::{GroundEdits, Tool};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -18,8 +18,8 @@ pub(super) const MOST_PIECES: usize = 1 << PIECE_BITS;
 struct Entry {
     shared: Arc<Shared>,
     slot: u32,
-    /// Whether it smooths.
-    smooths: bool,
+    /// Whether it reads the ground around a point.
+    reads: bool,
 }
 
 /// The edits that are on.
@@ -103,7 +103,7 @@ impl Roster {
                     let moved = at.and_then(|at| self.slots[self.entries[at].slot as usize].clone());
                     let slot = next.take_slot(moved.unwrap_or_else(|| compile(shared)));
                     changes.added.push(slot);
-                    Entry { shared: (*shared).clone(), slot, smooths: matches!(shared.edit.tool, Tool::Smooth(_)) }
+                    Entry { shared: (*shared).clone(), slot, reads: shared.edit.tool.reads_ground() }
                 }
             })
             .collect();
@@ -154,10 +154,10 @@ impl Roster {
         self.ranks.get(slot as usize).copied().unwrap_or(0)
     }
 
-    /// The edits that smooth, in order, with their slots.
-    pub(super) fn smoothing(&self) -> impl Iterator<Item = (u32, &Arc<CompiledEdit>)> {
-        let smoothing = self.entries.iter().filter(|entry| entry.smooths);
-        smoothing.filter_map(|entry| Some((entry.slot, self.edit(entry.slot)?)))
+    /// The edits that read the ground around a point, in order, with their slots.
+    pub(super) fn reading(&self) -> impl Iterator<Item = (u32, &Arc<CompiledEdit>)> {
+        let reading = self.entries.iter().filter(|entry| entry.reads);
+        reading.filter_map(|entry| Some((entry.slot, self.edit(entry.slot)?)))
     }
 
     /// A piece by its number.

@@ -2,10 +2,8 @@
 //! finer than the lattice, is the same at every level of detail, and knows neither poles nor the edges of the cube.
 //! The height at a node is that of the ground under its direction, as the earlier edits left it.
 
+use super::memory::{Known, Node};
 use glam::DVec3;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
-use std::sync::{Mutex, PoisonError};
 
 /// Nodes for each size of what is smoothed away.
 const NODES: f64 = 2.0;
@@ -13,12 +11,6 @@ const NODES: f64 = 2.0;
 const WIDEST: f64 = 0.3;
 /// Distance within which smooth ground depends on the ground, in nodes; more than the half diagonal of 3 by 3 by 3.
 const REACH: f64 = 3.0;
-/// Parts of the memory, each with a lock of its own.
-const PARTS: usize = 16;
-
-/// A node: its coordinates in spacings.
-pub(super) type Node = [i64; 3];
-
 /// A lattice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lattice {
@@ -70,7 +62,7 @@ impl Lattice {
     }
 
     /// The smooth height at a direction and its gradient, from the heights of nodes.
-    pub(super) fn at(&self, dir: DVec3, known: &Heights) -> (f64, DVec3) {
+    pub(super) fn at(&self, dir: DVec3, known: &Known<f64>) -> (f64, DVec3) {
         let Around { first, weights, slopes } = self.around(dir);
         let (mut height_m, mut gradient) = (0.0, DVec3::ZERO);
         for k in 0..3 {
@@ -88,79 +80,6 @@ impl Lattice {
     }
 }
 
-/// Heights of nodes.
-pub(super) type Heights = HashMap<Node, f64, BuildHasherDefault<Mixer>>;
-
-/// The heights of the nodes of all edits that smooth, as far as they were asked for. One terrain has one such memory.
-#[derive(Debug, Default)]
-pub(crate) struct Nodes {
-    parts: [Mutex<HashMap<u32, Heights>>; PARTS],
-}
-
-impl Nodes {
-    /// Fills in the heights of nodes of the edit in a slot; `ground` is asked for those that are new. The keys of
-    /// `wanted` are the nodes.
-    pub(super) fn fill(
-        &self,
-        slot: u32,
-        lattice: &Lattice,
-        wanted: &mut Heights,
-        ground: &dyn Fn(&[DVec3]) -> Vec<f64>,
-    ) {
-        let part = &self.parts[slot as usize % PARTS];
-        let mut missing: Vec<Node> = Vec::new();
-        {
-            let known = part.lock().unwrap_or_else(PoisonError::into_inner);
-            let known = known.get(&slot);
-            for (node, height_m) in wanted.iter_mut() {
-                match known.and_then(|known| known.get(node)) {
-                    Some(known_m) => *height_m = *known_m,
-                    None => missing.push(*node),
-                }
-            }
-        }
-        if missing.is_empty() {
-            return;
-        }
-        // No lock is held: the ground may be smooth there itself.
-        let dirs: Vec<DVec3> = missing.iter().map(|node| lattice.dir(*node)).collect();
-        let heights_m = ground(&dirs);
-        let mut known = part.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = known.entry(slot).or_default();
-        for (node, height_m) in missing.into_iter().zip(heights_m) {
-            known.insert(node, height_m);
-            wanted.insert(node, height_m);
-        }
-    }
-}
-
-/// A quick hash of nodes.
-#[derive(Debug, Default)]
-pub(super) struct Mixer(u64);
-
-impl Hasher for Mixer {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|byte| self.write_u64(u64::from(*byte)));
-    }
-
-    fn write_u64(&mut self, word: u64) {
-        let mixed = (self.0 ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        self.0 = mixed ^ (mixed >> 29);
-    }
-
-    fn write_i64(&mut self, word: i64) {
-        self.write_u64(word as u64);
-    }
-
-    fn write_usize(&mut self, word: usize) {
-        self.write_u64(word as u64);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -169,7 +88,7 @@ mod tests {
     fn smooth_ground_keeps_slopes_and_has_the_gradient_of_its_heights() {
         let lattice = Lattice::new(0.02);
         let fill = |dir: DVec3, ground: &dyn Fn(DVec3) -> f64| {
-            let mut known = Heights::default();
+            let mut known = Known::default();
             lattice.each_node(dir, |node| {
                 known.insert(node, ground(lattice.dir(node)));
             });

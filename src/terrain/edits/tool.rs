@@ -6,8 +6,8 @@ use super::outline;
 use super::paint::Paint;
 use super::widening::Widening;
 use crate::planet::edits::{
-    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode,
-    PictureStamp, Raise, Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Volcano, Wall,
+    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, Mesa, MoisturePaint, PaintMode,
+    PictureStamp, Raise, Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Thermal, Volcano, Wall,
 };
 use crate::planet::picture::PictureExtent;
 use crate::planet::{GroundEdit, Tool};
@@ -36,7 +36,7 @@ pub(super) struct At {
     /// Noise of rough ground.
     pub(super) noise: f64,
     /// Height of the line of a road, or of smooth ground; the slip of a fault, the share of a coast; of a picture, the
-    /// value over its level.
+    /// value over its level; the height that gullies add.
     pub(super) line: f64,
     /// 1 on the left side of the line, -1 on the right.
     pub(super) side: f64,
@@ -113,6 +113,14 @@ pub(super) enum CompiledTool {
     Smooth {
         strength: f64,
     },
+    Hydraulic {
+        depth_m: f64,
+    },
+    Thermal {
+        /// Height by which forms may stand out.
+        most_m: f64,
+        strength: f64,
+    },
     Wall {
         height_m: f64,
         top: f64,
@@ -158,7 +166,8 @@ fn dome(t: f64) -> (f64, f64) {
 }
 
 impl CompiledTool {
-    pub(super) fn new(edit: &GroundEdit, sea_m: f64) -> Self {
+    /// `depth_m`: the greatest depth of the gullies of an edit that has some.
+    pub(super) fn new(edit: &GroundEdit, sea_m: f64, depth_m: f64) -> Self {
         match edit.tool {
             Tool::Picture(PictureStamp { ref file, height_m, level, .. }) => {
                 let (lo, hi) = file.picture(PictureExtent::Place).map_or((level, level), |picture| picture.bounds());
@@ -182,6 +191,11 @@ impl CompiledTool {
             Tool::Canyon(Canyon { depth_m, floor }) => Self::Canyon { depth_m, floor, softness: edit.softness },
             Tool::Road(Road { strength }) => Self::Road { strength },
             Tool::Smooth(Smooth { strength, .. }) => Self::Smooth { strength },
+            Tool::Hydraulic(Hydraulic { .. }) => Self::Hydraulic { depth_m },
+            Tool::Thermal(Thermal { size, talus_deg, strength }) => {
+                let half_m = 0.5 * size * edit.radius_km * 1000.0;
+                Self::Thermal { most_m: half_m * libm::tan(talus_deg.to_radians()), strength }
+            }
             Tool::Wall(Wall { height_m, top }) => Self::Wall { height_m, top },
             Tool::Fault(Fault { throw_m, scarp, drop }) => Self::Fault { throw_m, scarp, drop },
             Tool::Coast(Coast { land_m, depth_m, flip }) => Self::Coast { sea_m, land_m, depth_m, flip },
@@ -218,6 +232,8 @@ impl CompiledTool {
             Self::Wall { height_m, top } => (12, [height_m, top, 0.0, 0.0]),
             Self::Fault { throw_m, scarp, drop } => (13, [throw_m, scarp, drop, 0.0]),
             Self::Coast { sea_m, land_m, depth_m, flip } => (14, [sea_m, land_m, depth_m, f64::from(u8::from(flip))]),
+            Self::Hydraulic { depth_m } => (16, [depth_m, 0.0, 0.0, 0.0]),
+            Self::Thermal { most_m, strength } => (17, [most_m, strength, 0.0, 0.0]),
             // The pixels are added by the edit.
             Self::Picture { height_m, range: (lo, hi) } => (15, [height_m, lo, hi, 0.0]),
             Self::Paint(Paint::Moisture { value, sets }) => (20, [value, f64::from(u8::from(sets)), 0.0, 0.0]),
@@ -330,6 +346,18 @@ impl CompiledTool {
             Self::Road { strength } | Self::Smooth { strength } => {
                 Change { by_line: strength * weight, ..towards(at.line, strength) }
             }
+            Self::Hydraulic { .. } => {
+                let change = added((at.line * weight, at.line * weight_by_t));
+                Change { by_line: weight, ..change }
+            }
+            Self::Thermal { most_m, strength } => {
+                let over_m = at.ground_m - at.line;
+                let left = libm::tanh(over_m / most_m);
+                let change = towards(at.line + most_m * left, strength);
+                // What stands out by far follows smooth ground alone.
+                let by_line = left * left * strength * weight;
+                Change { by_ground: -by_line, by_line, ..change }
+            }
             Self::Wall { height_m, top } => {
                 let (fallen, by_t) = falloff(t, top);
                 added((height_m * fallen, height_m * by_t))
@@ -382,11 +410,13 @@ impl CompiledTool {
                 Widening::to(f64::INFINITY, sea_m + height_m).then(Widening::by(0.0, FOOT * (height_m + foot_m)))
             }
             Self::Canyon { depth_m, .. } => Widening::by(depth_m, 0.0),
+            // Crests that are not clear rise by an eighth at most.
+            Self::Hydraulic { depth_m } => Widening::by(depth_m, 0.125 * depth_m),
             Self::Road { .. } => Widening::to(line_m.0, line_m.1),
             Self::Fault { throw_m, .. } => Widening::by(throw_m.abs(), throw_m.abs()),
             Self::Coast { sea_m, land_m, depth_m, .. } => Widening::to(sea_m - depth_m, sea_m + land_m),
             // Smooth ground is a mean of the ground around; its bounds are those of a larger place.
-            Self::Smooth { .. } | Self::Paint(_) => Widening::default(),
+            Self::Smooth { .. } | Self::Thermal { .. } | Self::Paint(_) => Widening::default(),
         }
     }
 }

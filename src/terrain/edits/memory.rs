@@ -1,0 +1,87 @@
+//! What edits that read the ground have found out about it, node by node of a lattice. One terrain has one memory.
+
+use super::gullies::Cell;
+use std::collections::{HashMap, HashSet};
+use std::hash::{BuildHasherDefault, Hasher};
+use std::sync::{Mutex, PoisonError};
+
+/// Parts of a memory, each with a lock of its own.
+const PARTS: usize = 16;
+
+/// A node: its coordinates in a lattice.
+pub(super) type Node = [i64; 3];
+/// Nodes.
+pub(super) type Nodes = HashSet<Node, BuildHasherDefault<Mixer>>;
+/// What is known of nodes.
+pub(super) type Known<V> = HashMap<Node, V, BuildHasherDefault<Mixer>>;
+
+/// The memory of all edits that read the ground, as far as they were asked.
+#[derive(Debug, Default)]
+pub(crate) struct Memory {
+    /// Heights of the nodes of smooth ground.
+    pub(super) heights: Lattices<f64>,
+    /// Waves of gullies.
+    pub(super) cells: Lattices<Cell>,
+}
+
+/// Lattices by their numbers.
+#[derive(Debug)]
+pub(super) struct Lattices<V> {
+    parts: [Mutex<HashMap<u32, Known<V>>>; PARTS],
+}
+
+impl<V> Default for Lattices<V> {
+    fn default() -> Self {
+        Self { parts: Default::default() }
+    }
+}
+
+impl<V: Copy> Lattices<V> {
+    /// What is known of nodes of a lattice, and the nodes of which nothing is known.
+    pub(super) fn recall(&self, lattice: u32, nodes: Nodes) -> (Known<V>, Vec<Node>) {
+        let part = self.parts[lattice as usize % PARTS].lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(of_lattice) = part.get(&lattice) else { return (Known::default(), nodes.into_iter().collect()) };
+        let (mut known, mut missing) = (Known::default(), Vec::new());
+        for node in nodes {
+            if let Some(value) = of_lattice.get(&node) {
+                known.insert(node, *value);
+            } else {
+                missing.push(node);
+            }
+        }
+        (known, missing)
+    }
+
+    /// Remembers nodes.
+    pub(super) fn keep(&self, lattice: u32, new: &[(Node, V)]) {
+        let mut part = self.parts[lattice as usize % PARTS].lock().unwrap_or_else(PoisonError::into_inner);
+        part.entry(lattice).or_default().extend(new.iter().copied());
+    }
+}
+
+/// A quick hash of nodes.
+#[derive(Debug, Default)]
+pub(super) struct Mixer(u64);
+
+impl Hasher for Mixer {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|byte| self.write_u64(u64::from(*byte)));
+    }
+
+    fn write_u64(&mut self, word: u64) {
+        let mixed = (self.0 ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        self.0 = mixed ^ (mixed >> 29);
+    }
+
+    fn write_i64(&mut self, word: i64) {
+        self.write_u64(word as u64);
+    }
+
+    fn write_usize(&mut self, word: usize) {
+        self.write_u64(word as u64);
+    }
+}

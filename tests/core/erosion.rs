@@ -1,0 +1,97 @@
+//! Erosion as a brush: gullies run down slopes and end on level ground; what stands out crumbles.
+
+use crate::sculpt::{at, beside, edit, planet, terrain};
+use std::f64::consts::TAU;
+use tellus::planet::Planet;
+use tellus::planet::edits::{GroundEdit, Hydraulic, Smooth, Thermal, Tool, Volcano};
+use tellus::terrain::Terrain;
+
+const MIDDLE: [f64; 2] = [20.0, 30.0];
+
+fn around(tool: Tool, radius_km: f64) -> GroundEdit {
+    GroundEdit { softness: 0.2, ..edit(tool, radius_km, &[at(MIDDLE[0], MIDDLE[1])]) }
+}
+
+/// A cone of 100 km, and gullies on it.
+fn carved(gullies: Hydraulic) -> (Terrain, Terrain) {
+    let cone = Volcano { height_m: 9000.0, steepness: 1.0, caldera: 0.0, caldera_m: 0.0 };
+    let plain = planet(0.0, vec![around(Tool::Volcano(cone), 100.0)]);
+    let mut with = plain.clone();
+    with.edits.push(around(Tool::Hydraulic(gullies), 120.0));
+    (terrain(&plain), terrain(&with))
+}
+
+/// What gullies change along a circle around the middle.
+fn along(terrains: &(Terrain, Terrain), away_km: f64, count: usize) -> Vec<f64> {
+    let dir = |i: usize| beside(&at(MIDDLE[0], MIDDLE[1]), i as f64 / count as f64 * 360.0, away_km);
+    (0..count).map(dir).map(|dir| terrains.1.height_m(dir) - terrains.0.height_m(dir)).collect()
+}
+
+#[test]
+fn gullies_run_down_slopes_keep_crests_and_end_on_level_ground() {
+    let gullies = Hydraulic { spacing: 0.05, depth: 2.0, octaves: 1, steepest_deg: 60.0 };
+    let terrains = carved(gullies);
+    for away_km in [30.0, 50.0] {
+        // 6 km apart, as deep as the cone is steep there.
+        let steep = 2.0 * 0.09 * (1.0 - away_km / 100.0);
+        let depth_m = 0.5 * 2.0 * 6000.0 * steep;
+        let across = along(&terrains, away_km, 2000);
+        let deepest = across.iter().copied().fold(0.0, f64::min) / depth_m;
+        let highest = across.iter().copied().fold(f64::MIN, f64::max) / depth_m;
+        assert!((-1.05..-0.8).contains(&deepest) && (-0.05..0.13).contains(&highest), "{deepest} {highest}");
+        let is_bed = |change_m: f64| change_m < -0.4 * depth_m;
+        let beds = (0..across.len()).filter(|i| is_bed(across[*i]) && !is_bed(across[(i + 1) % across.len()]));
+        let (beds, wanted) = (beds.count() as f64, TAU * away_km / 6.0);
+        assert!(beds > 0.6 * wanted && beds < 1.4 * wanted, "{beds} {wanted}");
+        // Down the slope a gully goes on: half a gully's width changes little, across it changes much.
+        let step = |heading_deg: f64, turned_deg: f64, by_km: f64| {
+            let center = at(MIDDLE[0], MIDDLE[1]);
+            let change = |dir| terrains.1.height_m(dir) - terrains.0.height_m(dir);
+            let there = beside(&center, heading_deg + turned_deg, away_km + by_km);
+            (change(beside(&center, heading_deg, away_km)) - change(there)).abs()
+        };
+        let steps =
+            |turned_deg: f64, by_km: f64| (0..200).map(|i| step(f64::from(i) * 1.8, turned_deg, by_km)).sum::<f64>();
+        let (down, across) = (steps(0.0, 3.0), steps(3.0 / away_km * 360.0 / TAU, 0.0));
+        assert!(down * 2.0 < across, "{down} {across}");
+    }
+    // Beyond the cone the ground is level.
+    assert!(along(&terrains, 119.0, 100).iter().all(|change_m| change_m.abs() < 1e-9));
+}
+
+#[test]
+fn finer_gullies_branch_off_and_add_their_depth() {
+    let gullies = |octaves| Hydraulic { spacing: 0.05, depth: 2.0, octaves, steepest_deg: 60.0 };
+    let turns = |octaves| {
+        let along = along(&carved(gullies(octaves)), 40.0, 4000);
+        along.windows(3).filter(|three| (three[1] - three[0]) * (three[2] - three[1]) < 0.0).count()
+    };
+    let (one, four) = (turns(1), turns(4));
+    assert!(four > 2 * one, "{one} {four}");
+    // Crests and beds of the largest stay free of the others.
+    let deepest_m = |octaves| along(&carved(gullies(octaves)), 40.0, 4000).into_iter().fold(0.0, f64::min);
+    let (one_m, four_m) = (deepest_m(1), deepest_m(4));
+    assert!(four_m <= one_m && four_m > 1.4 * one_m, "{one_m} {four_m}");
+}
+
+#[test]
+fn what_stands_out_crumbles_by_the_formula() {
+    let on = |tool: Tool| -> Planet { planet(2500.0, vec![around(tool, 100.0)]) };
+    let bare = terrain(&planet(2500.0, Vec::new()));
+    let smooth = terrain(&on(Tool::Smooth(Smooth { size: 0.25, strength: 1.0 })));
+    let thermal = |talus_deg: f64| terrain(&on(Tool::Thermal(Thermal { size: 0.25, talus_deg, strength: 1.0 })));
+    let (steep, gentle) = (thermal(50.0), thermal(0.3));
+    let most_m = 12_500.0 * 0.3_f64.to_radians().tan();
+    let (mut most_over_m, mut kept) = (0.0_f64, 0);
+    for i in 0..2000 {
+        let dir = beside(&at(MIDDLE[0], MIDDLE[1]), f64::from(i) * 7.3, f64::from(i) * 0.039);
+        let (ground_m, smooth_m) = (bare.height_m(dir), smooth.height_m(dir));
+        let over_m = ground_m - smooth_m;
+        let wanted_m = smooth_m + most_m * (over_m / most_m).tanh();
+        assert!((gentle.height_m(dir) - wanted_m).abs() < 1e-6, "{ground_m} {smooth_m} {}", gentle.height_m(dir));
+        most_over_m = most_over_m.max(over_m.abs());
+        kept += usize::from((steep.height_m(dir) - ground_m).abs() < 0.01 * over_m.abs().max(0.1));
+    }
+    assert!(most_over_m > 1.5 * most_m, "{most_over_m} {most_m}");
+    assert!(kept > 1900, "{kept}");
+}
