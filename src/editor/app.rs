@@ -9,8 +9,9 @@ use super::files::crash::{self, Doing};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
 use super::files::library::Library;
 use super::files::recent::Recent;
+use super::gesture::Gesture;
 use super::handlers::{self, answers, baking, open_file, opening, shooting};
-use super::late_keys::LateKeys;
+use super::late_input::LateInput;
 use super::painter::survey::{Survey, same_survey};
 use super::panels::PanelState;
 use super::panels::docks::Bench;
@@ -78,7 +79,8 @@ pub struct EditorApp {
     maps: Option<Arc<MapStore>>,
     /// Whether a field had the focus at the end of the last frame.
     was_typing: bool,
-    late_keys: LateKeys,
+    late_input: LateInput,
+    gesture: Gesture,
     title: String,
 }
 
@@ -131,7 +133,8 @@ impl EditorApp {
             curve_inputs: Surveyor::new(curve_view::inputs_of, same_heights, waker()),
             maps,
             was_typing: false,
-            late_keys: LateKeys::default(),
+            late_input: LateInput::default(),
+            gesture: Gesture::default(),
             title: String::new(),
         }
     }
@@ -350,14 +353,11 @@ impl EditorApp {
         }
     }
 
-    /// Ends the gesture under way if the user neither drags, types nor holds a key.
-    fn settle(&mut self, ctx: &egui::Context) {
-        let busy = ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty()) || ctx.text_edit_focused();
-        if !busy {
-            self.state.document.settle();
-            if let Some(system) = &mut self.state.system {
-                system.settle();
-            }
+    /// Ends the gesture under way: the next change is a step of its own.
+    fn end_gesture(&mut self) {
+        self.state.document.settle();
+        if let Some(system) = &mut self.state.system {
+            system.settle();
         }
     }
 
@@ -381,7 +381,7 @@ impl EditorApp {
 
 impl eframe::App for EditorApp {
     fn raw_input_hook(&mut self, ctx: &egui::Context, raw_input: &mut egui::RawInput) {
-        if self.late_keys.admit(&mut raw_input.events) {
+        if self.late_input.admit(&mut raw_input.events) {
             ctx.request_repaint();
         }
     }
@@ -396,6 +396,10 @@ impl eframe::App for EditorApp {
             let waker = ctx.clone();
             state.viewport.edit_clock.frame_began(&render_state.device, move || waker.request_repaint());
         }
+        if Gesture::begins(ctx) {
+            self.end_gesture();
+        }
+        let state = &mut self.state;
         let filtered = state.shows.panel && self.panels.finding.filter(self.panels.tab()).is_active();
         shortcuts::take(ctx, state, Keys { was_typing: self.was_typing, filtered }, &mut self.commands);
         answers::poll_dialogs(state, ctx);
@@ -452,7 +456,9 @@ impl eframe::App for EditorApp {
         self.place.show(&ctx, &self.state, &mut self.commands);
         self.finder.show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);
-        self.settle(&ctx);
+        if self.gesture.has_ended(&ctx) {
+            self.end_gesture();
+        }
         self.plan_next_frame(&ctx);
         self.state.viewport.frames.end();
     }

@@ -3,7 +3,8 @@
 //! Views read the state and send commands; handlers change the state.
 //!
 //! - [`app`]: the eframe application: the order of a frame
-//! - [`late_keys`]: keys that wait for the field that a click opens
+//! - [`gesture`]: when a gesture ends
+//! - [`late_input`]: input that waits for a later frame
 //! - [`command`]: the messages from views to handlers; [`commands`]: the table of commands; [`apply`]: carries them out
 //! - [`state`]: the document, its undo steps, questions, notices, the working copy
 //! - [`handlers`]: the effects of the commands
@@ -20,8 +21,9 @@ pub mod command;
 pub mod commands;
 pub mod files;
 pub mod finder;
+pub mod gesture;
 pub mod handlers;
-pub mod late_keys;
+pub mod late_input;
 pub mod painter;
 pub mod panels;
 pub mod state;

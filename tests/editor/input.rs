@@ -258,6 +258,70 @@ fn a_number_field_calculates_and_says_what_it_cannot() {
 }
 
 #[test]
+fn a_number_field_takes_units_within_a_calculation_and_changes_of_its_number_and_keeps_what_it_refuses() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Planet");
+    let radius_km = |harness: &Editor| planet(harness).radius_km;
+    for (typed, value) in [("2*2100 km + 300 m", 4200.3), ("100 mi", 160.93), ("*2", 321.87), ("+=50%", 482.80)] {
+        enter(&mut harness, "Radius of planet as a number", typed);
+        assert!((radius_km(&harness) - value).abs() < 0.01, "{typed}: {}", radius_km(&harness));
+    }
+    let before = radius_km(&harness);
+    enter(&mut harness, "Radius of planet as a number", "3 km * 2 kmm");
+    assert_eq!(radius_km(&harness), before);
+    harness.run_steps(3);
+    // The text waits, selected: what is typed next takes its place.
+    assert!(harness.query_by_label_contains("\"3 km * 2 kmm\"").is_some());
+    let field = harness.get_by_label("Radius of planet as a number");
+    assert!(field.is_focused() && field.value().as_deref() == Some("3 km * 2 kmm"), "{:?}", field.value());
+    harness.event(egui::Event::Text("700".to_owned()));
+    harness.run_steps(1);
+    assert!(harness.query_by_label_contains("\"3 km * 2 kmm\"").is_none(), "the reason was read");
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Enter);
+    assert_eq!(radius_km(&harness), 700.0);
+}
+
+#[test]
+fn sliders_and_numbers_have_the_menu_of_their_label() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Star");
+    for label in ["Latitude of star", "Latitude of star as a number"] {
+        enter(&mut harness, "Latitude of star as a number", "33.5");
+        let place = harness.get_by_label(label).rect().center();
+        for pressed in [true, false] {
+            let button = egui::PointerButton::Secondary;
+            harness.event(egui::Event::PointerMoved(place));
+            harness.event(egui::Event::PointerButton { pos: place, button, pressed, modifiers: egui::Modifiers::NONE });
+            harness.run_steps(2);
+        }
+        click(&mut harness, "Reset to default");
+        assert_eq!(planet(&harness).star.latitude_deg, Planet::default().star.latitude_deg, "{label}");
+    }
+}
+
+#[test]
+fn a_colour_is_typed_as_a_code() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Star");
+    let type_code = |harness: &mut Editor, code: &str| {
+        harness.get_by_label("Code of Colour of star").focus();
+        harness.run_steps(2);
+        press(harness, egui::Modifiers::COMMAND, egui::Key::A);
+        harness.event(egui::Event::Text(code.to_owned()));
+        harness.run_steps(1);
+        press(harness, egui::Modifiers::NONE, egui::Key::Enter);
+    };
+    type_code(&mut harness, "#5C3A93");
+    let [r, g, b] = planet(&harness).star.color;
+    assert!((r - 0.107).abs() < 1e-3 && (g - 0.0423).abs() < 1e-3 && (b - 0.2918).abs() < 1e-3, "{r} {g} {b}");
+    let field = harness.get_by_label("Code of Colour of star");
+    assert_eq!(field.value().as_deref(), Some("#5C3A93"));
+    type_code(&mut harness, "mauve");
+    assert!(harness.query_by_label_contains("is no colour").is_some());
+    assert_eq!(planet(&harness).star.color, [r, g, b]);
+}
+
+#[test]
 fn a_value_is_copied_and_pasted_into_another_parameter() {
     let mut harness = editor(vec![]);
     click(&mut harness, "Star");

@@ -92,7 +92,7 @@ fn read_altitude(text: &str) -> Result<f64, String> {
     if text.parse::<f64>().is_ok() {
         return Err(format!("The altitude needs a unit: write @ {text} km or @ {text} m"));
     }
-    let altitude_m = read_number(text, Unit::Metres).map_err(|why| format!("The altitude: {why}"))?;
+    let altitude_m = read_number(text, Unit::Metres, None).map_err(|why| format!("The altitude: {why}"))?;
     let (least, most) = ALTITUDES_M;
     if altitude_m < least {
         return Err(format!("The altitude {} is too low: use 1 m or more", length_text(altitude_m)));

@@ -1,8 +1,8 @@
 //! The palette: the biomes with their shares of the land; add, rename, recolour, reorder, remove.
 
 use super::{Draft, biome_edit};
+use crate::editor::widgets::color_field::color_button;
 use crate::editor::widgets::drag_row::dragged_row;
-use crate::editor::widgets::param_row::color_button;
 use crate::editor::widgets::{color32, ink_on, menu_button};
 use crate::planet::MAX_BIOMES;
 use eframe::egui::{self, AtomExt};

@@ -4,6 +4,7 @@ use super::biomes::names;
 use super::{Draft, rest};
 use crate::editor::command::{Action, SculptAction};
 use crate::editor::finder::place::Place;
+use crate::editor::state::describe;
 use crate::editor::viewport::sculpt::{SculptLink, tidy_km};
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::number::length_text;
@@ -362,8 +363,12 @@ fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     draft.commands.extend(browse.map(Action::Browse));
     idle_tool(ui, draft.planet, &edit.tool);
     if let Some(now) = draft.planet.edits.get_mut(index).filter(|now| **now != edit) {
+        // Planets with this edit alone: the difference of thousands takes long.
+        let [was, is] =
+            [&*now, &edit].map(|edit| Planet { edits: [edit.clone()].into_iter().collect(), ..Planet::default() });
+        let label = if renamed { "Rename edit".to_owned() } else { describe::change(&was, &is) };
         *now = edit;
-        draft.name_edit(if renamed { "Rename edit".to_owned() } else { format!("Change {name}") });
+        draft.name_edit(label);
     }
 }
 

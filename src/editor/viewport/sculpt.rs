@@ -144,7 +144,8 @@ impl Hand {
                 (None, None) => None,
             };
         }
-        if response.dragged_by(egui::PointerButton::Primary)
+        // The place of the release counts as well.
+        if (response.dragged_by(egui::PointerButton::Primary) || response.drag_stopped_by(egui::PointerButton::Primary))
             && let Some(pos) = response.interact_pointer_pos()
         {
             edit = self.drag(scene, pos, planet).or(edit);

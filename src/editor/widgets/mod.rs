@@ -2,6 +2,7 @@
 //!
 //! - [`param_row`]: a parameter as a row: label, slider, number, reset
 //! - [`params_grid`]: all parameters of a part; [`row_view`]: the filter of a panel, the row that was searched for
+//! - [`color_field`], [`choice_field`]: fields for a colour and for a choice
 //! - [`curve_edit`]: a curve through points; [`curve_view`]: the numbers behind it
 //! - [`drag_row`]: rows that are reordered by dragging
 //! - [`icon`]: drawn icons and their buttons
@@ -10,6 +11,8 @@
 //! - [`typed`]: number fields that say why they refuse a text
 
 pub mod arithmetic;
+pub mod choice_field;
+pub mod color_field;
 pub mod curve_edit;
 pub mod curve_view;
 pub mod drag_row;

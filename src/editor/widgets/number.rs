@@ -1,6 +1,6 @@
 //! Numbers as text: short, with an optional unit.
 
-use super::arithmetic::evaluate;
+use super::arithmetic::{Context, evaluate};
 use crate::planet::param::Unit;
 
 /// A number with about five significant digits and no trailing zeros.
@@ -21,26 +21,34 @@ pub fn format_digits(value: f64, digits: i32) -> String {
     if text.is_empty() || text == "-0" || text == "0" { format!("{value:e}") } else { text.to_owned() }
 }
 
-/// Reads a number or a calculation with an optional unit, and converts it to `unit`: `"1.5 km"` is 1500 for metres.
+/// Reads a number or a calculation with optional units, and converts it to `unit`: `"1.5 km"` is 1500 for metres. `now`
+/// is the number that is there, for texts that change it: `"*1.5"`.
 ///
 /// # Errors
 /// Why the text is no such number.
-pub fn read_number(typed: &str, unit: Unit) -> Result<f64, String> {
+pub fn read_number(typed: &str, unit: Unit, now: Option<f64>) -> Result<f64, String> {
     let typed = typed.trim();
     let text = typed.replace('−', "-");
     if text.is_empty() {
         return Err("nothing was typed".to_owned());
     }
-    let mut why = String::new();
-    for (symbol, factor) in units_read(unit) {
+    let units = units_read(unit);
+    let finite = |value: f64| match value.is_finite() {
+        true => Ok(value),
+        false => Err(format!("{typed:?} is not a finite number")),
+    };
+    // A unit at the end of a calculation without others belongs to all of it: `100/3 km`.
+    for (symbol, factor) in units.iter().filter(|(symbol, _)| !symbol.is_empty()) {
         let Some(number) = text.strip_suffix(symbol).filter(|number| !number.trim().is_empty()) else { continue };
-        match evaluate(number) {
-            Ok(value) if (value * factor).is_finite() => return Ok(value * factor),
-            Ok(_) => return Err(format!("{typed:?} is not a finite number")),
-            Err(wrong) => why = wrong,
+        if let Ok(value) = evaluate(number, Context::default()) {
+            return finite(value * factor);
         }
     }
-    let calculates = text.trim_start_matches(['-', '+']).contains(['+', '*', '/', '(', ')', '^', '×', '÷']);
+    let why = match evaluate(&text, Context { units: &units, now }) {
+        Ok(value) => return finite(value),
+        Err(why) => why,
+    };
+    let calculates = text.trim_start_matches(['-', '+']).contains(['+', '*', '/', '(', ')', '^', '×', '÷', '=']);
     let has_number = text.trim_start_matches(['-', '+', '.', '(']).starts_with(|c: char| c.is_ascii_digit());
     Err(match unit {
         _ if calculates => format!("{typed:?}: {why}"),
@@ -50,16 +58,16 @@ pub fn read_number(typed: &str, unit: Unit) -> Result<f64, String> {
     })
 }
 
-/// The units that a number may have, with their factors; longer ones come before their own ends.
+/// The units that a number may have, with their factors; longer ones come before their own beginnings and ends.
 fn units_read(unit: Unit) -> Vec<(&'static str, f64)> {
     let others: &[(&str, f64)] = match unit {
-        Unit::Metres => &[("km", 1000.0), ("cm", 0.01), ("mm", 0.001)],
-        Unit::Kilometres => &[("km", 1.0), ("m", 0.001)],
-        Unit::Millimetres => &[("mm", 1.0), ("cm", 10.0), ("m", 1000.0)],
-        Unit::Degrees => &[("deg", 1.0)],
+        Unit::Metres => &[("km", 1000.0), ("cm", 0.01), ("mm", 0.001), ("mi", 1609.344), ("ft", 0.3048)],
+        Unit::Kilometres => &[("km", 1.0), ("mi", 1.609_344), ("ft", 0.000_304_8), ("m", 0.001)],
+        Unit::Millimetres => &[("mm", 1.0), ("cm", 10.0), ("ft", 304.8), ("m", 1000.0)],
+        Unit::Degrees => &[("deg", 1.0), ("rad", 180.0 / std::f64::consts::PI)],
         Unit::Celsius => &[("°C", 1.0), ("°", 1.0), ("C", 1.0)],
-        Unit::MetresPerSecond => &[("km/h", 1.0 / 3.6)],
-        Unit::KilometresPerHour => &[("m/s", 3.6)],
+        Unit::MetresPerSecond => &[("km/h", 1.0 / 3.6), ("mph", 0.447_04), ("kn", 1.852 / 3.6)],
+        Unit::KilometresPerHour => &[("m/s", 3.6), ("mph", 1.609_344), ("kn", 1.852)],
         Unit::PerKilometre => &[("1/m", 1000.0)],
         Unit::PerMetre => &[("1/km", 0.001)],
         _ => &[],
@@ -113,19 +121,22 @@ mod tests {
 
     #[test]
     fn units_are_understood() {
-        assert_eq!(read_number("1.5 km", Unit::Metres), Ok(1500.0));
-        assert_eq!(read_number("1e3m", Unit::Metres), Ok(1000.0));
-        assert_eq!(read_number("500 m", Unit::Kilometres), Ok(0.5));
-        assert_eq!(read_number("−12 °C", Unit::Celsius), Ok(-12.0));
-        assert_eq!(read_number("3", Unit::None), Ok(3.0));
-        assert_eq!(read_number("0.5 1/km", Unit::PerKilometre), Ok(0.5));
-        assert_eq!(read_number("36 km/h", Unit::MetresPerSecond), Ok(10.0));
-        assert_eq!(read_number("(1+2)*2 km", Unit::Metres), Ok(6000.0));
-        assert_eq!(read_number("1/4", Unit::None), Ok(0.25));
-        assert_eq!(read_number("3600*", Unit::None), Err("\"3600*\": a number is missing after *".to_owned()));
-        assert_eq!(read_number("1/0", Unit::None), Err("\"1/0\" is not a finite number".to_owned()));
+        assert_eq!(read_number("1.5 km", Unit::Metres, None), Ok(1500.0));
+        assert_eq!(read_number("1e3m", Unit::Metres, None), Ok(1000.0));
+        assert_eq!(read_number("500 m", Unit::Kilometres, None), Ok(0.5));
+        assert_eq!(read_number("−12 °C", Unit::Celsius, None), Ok(-12.0));
+        assert_eq!(read_number("3", Unit::None, None), Ok(3.0));
+        assert_eq!(read_number("0.5 1/km", Unit::PerKilometre, None), Ok(0.5));
+        assert_eq!(read_number("36 km/h", Unit::MetresPerSecond, None), Ok(10.0));
+        assert_eq!(read_number("(1+2)*2 km", Unit::Metres, None), Ok(6000.0));
+        assert_eq!(read_number("1/4", Unit::None, None), Ok(0.25));
+        assert_eq!(read_number("3 km + 200 m", Unit::Metres, None), Ok(3200.0));
+        assert_eq!(read_number("*2", Unit::Metres, Some(150.0)), Ok(300.0));
+        assert_eq!(read_number("100/4 km", Unit::Metres, None), Ok(25_000.0));
+        assert_eq!(read_number("3600*", Unit::None, None), Err("\"3600*\": a number is missing after *".to_owned()));
+        assert_eq!(read_number("1/0", Unit::None, None), Err("\"1/0\" is not a finite number".to_owned()));
         for bad in ["", "km", "3 parsecs", "NaN", "inf"] {
-            assert!(read_number(bad, Unit::Kilometres).is_err(), "{bad:?}");
+            assert!(read_number(bad, Unit::Kilometres, None).is_err(), "{bad:?}");
         }
     }
 

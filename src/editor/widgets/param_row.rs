@@ -3,6 +3,8 @@
 //! The row knows the parameter by its [`Param`] alone. Its widgets have accessible names such as "Amplitude of
 //! Continents"; that of the number beside a slider is "Amplitude of Continents as a number".
 
+use super::choice_field::{biome_box, choice_box};
+use super::color_field::{color_button, hex_field};
 use super::curve_edit::CurveEdit;
 use super::curve_view::CurveView;
 use super::icon::{Icon, icon, icon_button};
@@ -11,7 +13,7 @@ use super::row_view::{LockView, RowView};
 use super::typed::{self, Allowed, typed_field};
 use super::value_text::{read_value, value_text};
 use super::{random_seed, select_all};
-use crate::planet::param::{Choice, Domain, Param, ParamPath, Unit, Value, ValueMut};
+use crate::planet::param::{Domain, Param, ParamPath, Unit, Value, ValueMut};
 use eframe::egui;
 
 /// The parameter of a row.
@@ -79,7 +81,11 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
                 egui::Layout::left_to_right(egui::Align::Center),
                 |ui| {
                     ui.set_min_width(control_width);
-                    browse = control(ui, row, &mut value);
+                    let number;
+                    (browse, number) = control(ui, row, &mut value);
+                    if let Some(number) = number {
+                        menu_of_number(ui, number, row, &mut value);
+                    }
                 },
             );
             if let Some(default) = resets_to(row)
@@ -154,27 +160,41 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
         .inner;
     let response = response.on_hover_ui(|ui| tooltip(ui, row, value));
     Paste::take(ui, row, value, &response);
-    response.context_menu(|ui| {
-        if ui.button("Copy value").clicked() {
-            ui.ctx().copy_text(value_text(row.param, &value.get(), value.as_ref().labels()));
-            ui.close();
-        }
-        if ui.button("Paste value").clicked() {
-            Paste::ask(ui, row);
-            ui.close();
-        }
-        if ui.button("Copy path").clicked() {
-            ui.ctx().copy_text(row.path.to_string());
-            ui.close();
-        }
-        row.locks.entry(ui, row.path);
-        if let Some(default) = resets_to(row)
-            && ui.button("Reset to default").clicked()
-        {
-            value.set(default);
-            ui.close();
-        }
-    });
+    response.context_menu(|ui| menu(ui, row, value));
+}
+
+/// A slider and its number have the tooltip and the menu of the label as well. `number` is both.
+fn menu_of_number(ui: &egui::Ui, mut number: egui::Response, row: &Row<'_>, value: &mut ValueMut<'_>) {
+    // A slider takes no clicks.
+    let asked = ui.input(|input| input.pointer.secondary_clicked());
+    number.flags.set(egui::response::Flags::CLICKED, asked && number.contains_pointer());
+    if !number.has_focus() {
+        number = number.on_hover_ui(|ui| tooltip(ui, row, value));
+    }
+    number.context_menu(|ui| menu(ui, row, value));
+}
+
+/// The context menu of a parameter.
+fn menu(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
+    if ui.button("Copy value").clicked() {
+        ui.ctx().copy_text(value_text(row.param, &value.get(), value.as_ref().labels()));
+        ui.close();
+    }
+    if ui.button("Paste value").clicked() {
+        Paste::ask(ui, row);
+        ui.close();
+    }
+    if ui.button("Copy path").clicked() {
+        ui.ctx().copy_text(row.path.to_string());
+        ui.close();
+    }
+    row.locks.entry(ui, row.path);
+    if let Some(default) = resets_to(row)
+        && ui.button("Reset to default").clicked()
+    {
+        value.set(default);
+        ui.close();
+    }
 }
 
 /// The mark of a locked parameter. A click unlocks it, unless something that holds it is locked.
@@ -254,15 +274,18 @@ fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
     ui.weak(egui::RichText::new(row.path.to_string()).monospace());
 }
 
-/// Shows the control of the parameter's domain. Gives whether the user wants to choose a file.
-fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
+/// Shows the control of the parameter's domain. Gives whether the user wants to choose a file, and the slider with its
+/// number.
+fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> (bool, Option<egui::Response>) {
     let name = name(row);
     let focus = |response: egui::Response| {
         if row.takes_focus {
             response.request_focus();
             select_all(&response);
         }
+        response
     };
+    let mut number = None;
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
             // A wide range around zero is logarithmic on both sides: a sea level may be metres or kilometres.
@@ -279,11 +302,13 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
                 let share = f64::from(response.drag_delta().x / response.rect.width());
                 get_set(v, NUMBER_DIGITS)(Some(drag_finely(before, share, [min, max], logarithmic)));
             }
-            focus(number_field(ui, &name, row.param, v, min, max, logarithmic));
+            let field = focus(number_field(ui, &name, row.param, v, min, max, logarithmic));
+            number = Some(field.union(response));
         }
         (Domain::Count { min, max }, ValueMut::Count(v)) => {
-            add_slider(ui, &name, egui::Slider::new(&mut **v, min..=max));
-            focus(count_field(ui, v, 0.1, Allowed::whole(min, max)).accessible_name(format!("{name} as a number")));
+            let slider = add_slider(ui, &name, egui::Slider::new(&mut **v, min..=max));
+            let field = count_field(ui, v, 0.1, Allowed::whole(min, max));
+            number = Some(focus(field.accessible_name(format!("{name} as a number"))).union(slider));
         }
         (Domain::Seed, ValueMut::Count(v)) => {
             // As wide as the longest number, so that the dice button stays under the pointer.
@@ -292,7 +317,10 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
                 **v = random_seed() as u32;
             }
         }
-        (Domain::Color, ValueMut::Triple(v)) => color_button(ui, &name, v),
+        (Domain::Color, ValueMut::Triple(v)) => {
+            color_button(ui, &name, v);
+            hex_field(ui, &name, v);
+        }
         (Domain::Triple { .. }, ValueMut::Triple(_)) => {
             // The three numbers are on a line of their own below.
             ui.weak(row.param.unit.symbol());
@@ -311,7 +339,9 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
                 **letter = typed;
             }
         }
-        (Domain::File { max_chars }, ValueMut::Text(text)) => return file_field(ui, &name, text, max_chars),
+        (Domain::File { max_chars }, ValueMut::Text(text)) => {
+            return (file_field(ui, &name, text, max_chars), None);
+        }
         (domain, ValueMut::Text(text)) => {
             let max_chars = if let Domain::Text { max_chars } = domain { max_chars } else { usize::MAX };
             let edit = egui::TextEdit::singleline(&mut **text).char_limit(max_chars).desired_width(f32::INFINITY);
@@ -335,7 +365,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
             ui.weak("cannot be edited here");
         }
     }
-    false
+    (false, number)
 }
 
 /// A path, and a button to choose another. Gives whether the button was clicked.
@@ -428,63 +458,4 @@ fn triple(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut [f64; 3], ma
                 .accessible_name(format!("{channel} of {name}"));
         }
     });
-}
-
-/// A button that shows a linear colour and opens a picker.
-pub fn color_button(ui: &mut egui::Ui, name: &str, value: &mut [f64; 3]) {
-    let mut rgb = value.map(|component| component as f32);
-    let response = ui.color_edit_button_rgb(&mut rgb).accessible_name(name);
-    if response.changed() {
-        // Four decimals are finer than 8 bits, and keep the preset readable.
-        *value = rgb.map(|component| (f64::from(component.clamp(0.0, 1.0)) * 1e4).round() / 1e4);
-    }
-}
-
-fn choice_box(ui: &mut egui::Ui, name: &str, choice: &mut dyn Choice) {
-    let names = choice.labels();
-    let current = choice.index();
-    let mut chosen = current;
-    egui::ComboBox::from_id_salt("choice")
-        .selected_text(names.get(current).copied().unwrap_or_default())
-        .width(ui.available_width().min(160.0))
-        .show_ui(ui, |ui| {
-            for (index, text) in names.iter().enumerate() {
-                ui.selectable_value(&mut chosen, index, *text);
-            }
-        })
-        .response
-        .accessible_name(name);
-    if chosen != current {
-        choice.set_index(chosen);
-    }
-}
-
-/// The biomes of the palette, by colour and name. A key of no biome shows as "None".
-fn biome_box(ui: &mut egui::Ui, name: &str, key: &mut char, biomes: &[BiomeName]) {
-    let chosen = biomes.iter().find(|biome| biome.key == *key);
-    let height = ui.spacing().interact_size.y;
-    if let Some(biome) = chosen {
-        let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(height), egui::Sense::hover());
-        swatch(ui, rect, biome.color);
-    }
-    egui::ComboBox::from_id_salt("biome")
-        .selected_text(chosen.map_or("None", |biome| biome.name.as_str()))
-        .width(ui.available_width().min(160.0))
-        .truncate()
-        .show_ui(ui, |ui| {
-            for biome in biomes {
-                ui.horizontal(|ui| {
-                    let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(height), egui::Sense::hover());
-                    swatch(ui, rect, biome.color);
-                    ui.selectable_value(key, biome.key, &biome.name);
-                });
-            }
-        })
-        .response
-        .accessible_name(name);
-}
-
-fn swatch(ui: &egui::Ui, rect: egui::Rect, color: [f64; 3]) {
-    let [r, g, b] = color.map(|component| component as f32);
-    ui.painter().rect_filled(rect.shrink(3.0), 3.0, egui::Rgba::from_rgb(r, g, b));
 }

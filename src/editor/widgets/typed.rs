@@ -1,9 +1,11 @@
 //! Number fields that say why they refuse a text.
 //!
 //! egui's own fields clamp a number to the range, and silently restore the old number if they cannot read the text.
-//! These fields refuse both, and show the reason below the field for some seconds.
+//! These fields refuse both, and show the reason below the field for some seconds. After Enter the refused text stays, to
+//! be corrected.
 
 use super::number::{format_digits, read_number, suffix};
+use super::select_all;
 use crate::planet::param::Unit;
 use eframe::egui;
 use std::cell::RefCell;
@@ -53,11 +55,11 @@ impl<'a> Allowed<'a> {
         format!("{} to {}{}", self.min, self.max, self.end())
     }
 
-    /// The number of a text, or why it is not allowed.
-    pub fn read(&self, text: &str) -> Result<f64, String> {
+    /// The number of a text, or why it is not allowed. `now` is the number that is there.
+    pub fn read(&self, text: &str, now: Option<f64>) -> Result<f64, String> {
         let text = text.trim();
         let bare = text.strip_suffix(self.mark.trim()).unwrap_or(text);
-        let value = read_number(bare, self.unit).map_err(|why| format!("{why}; use {}", self.range()))?;
+        let value = read_number(bare, self.unit, now).map_err(|why| format!("{why}; use {}", self.range()))?;
         if value < self.min || value > self.max {
             return Err(format!("{value} is out of range; use {}", self.range()));
         }
@@ -80,6 +82,17 @@ fn place() -> egui::Id {
     egui::Id::unique("refused number")
 }
 
+/// The text that was taken last.
+#[derive(Clone)]
+struct Taken {
+    text: String,
+    frame: u64,
+}
+
+fn taken_place() -> egui::Id {
+    egui::Id::unique("taken number")
+}
+
 /// Shows a field of this size, or as large as it needs. `shown` is the text of the field for its value: a field that
 /// still holds this text changes nothing.
 pub fn typed_field(
@@ -91,12 +104,19 @@ pub fn typed_field(
     value: f64,
 ) -> egui::Response {
     let refused: RefCell<Option<String>> = RefCell::default();
+    let frame = ui.ctx().cumulative_frame_nr();
+    let (before, taken) = (ui.data(|data| data.get_temp::<Taken>(taken_place())), RefCell::default());
     let parse = |text: &str| {
-        if text.trim() == shown {
+        // egui reads a text once more in the frame after it was taken: `*2` would count twice.
+        let again = before.as_ref().is_some_and(|taken| taken.text == text && frame <= taken.frame + 1);
+        if again || text.trim() == shown {
             return Some(value);
         }
-        let read = allowed.read(text);
+        let read = allowed.read(text, Some(value));
         *refused.borrow_mut() = read.as_ref().err().cloned();
+        if read.is_ok() {
+            *taken.borrow_mut() = Some(Taken { text: text.to_owned(), frame });
+        }
         read.ok()
     };
     // The range holds for dragging alone: to show a loaded value must not clamp it.
@@ -104,13 +124,22 @@ pub fn typed_field(
         .range(allowed.min..=allowed.max)
         .clamp_existing_to_range(false)
         .custom_parser(parse)
+        .clip_text(true)
         .update_while_editing(false);
     let response = match size {
         Some(size) => ui.add_sized(size, number),
         None => ui.add(number),
     };
+    if let Some(taken) = taken.take() {
+        ui.data_mut(|data| data.insert_temp(taken_place(), taken));
+    }
     if let Some(why) = refused.take() {
         refuse(ui, response.id, why);
+        if ui.input(|input| input.key_pressed(egui::Key::Enter)) {
+            // egui keeps the text of a field that has the focus.
+            response.request_focus();
+            select_all(&response);
+        }
     }
     tell(ui, &response);
     response
@@ -147,7 +176,8 @@ pub fn tell(ui: &egui::Ui, field: &egui::Response) {
     };
     let left_secs = SHOWN_SECS - (ui.input(|input| input.time) - refusal.since_secs);
     // The user types or drags again: the reason has been read.
-    if left_secs <= 0.0 || field.gained_focus() || field.changed() || field.dragged() {
+    let is_typed = left_secs < SHOWN_SECS && field.has_focus() && ui.input(|input| input.events.iter().any(is_typing));
+    if left_secs <= 0.0 || is_typed || field.changed() || field.dragged() {
         ui.data_mut(|data| data.remove::<Refusal>(place()));
         return;
     }
@@ -162,6 +192,10 @@ pub fn tell(ui: &egui::Ui, field: &egui::Response) {
     });
 }
 
+fn is_typing(event: &egui::Event) -> bool {
+    matches!(event, egui::Event::Text(_) | egui::Event::Paste(_) | egui::Event::Key { pressed: true, .. })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -169,14 +203,17 @@ mod tests {
     #[test]
     fn what_is_refused_is_refused_for_a_reason() {
         let angle = Allowed::numbers(Unit::Degrees, -90.0, 90.0);
-        assert_eq!(angle.read(" 12.5° "), Ok(12.5));
-        assert_eq!(angle.read("abc"), Err("\"abc\" is not a number; use -90 to 90°".to_owned()));
-        assert_eq!(angle.read("5 km"), Err("\"5 km\" is not in °; use -90 to 90°".to_owned()));
-        assert_eq!(angle.read("95"), Err("95 is out of range; use -90 to 90°".to_owned()));
-        assert_eq!(angle.read(""), Err("nothing was typed; use -90 to 90°".to_owned()));
+        assert_eq!(angle.read(" 12.5° ", None), Ok(12.5));
+        assert_eq!(angle.read("abc", None), Err("\"abc\" is not a number; use -90 to 90°".to_owned()));
+        assert_eq!(angle.read("5 km", None), Err("\"5 km\" is not in °; use -90 to 90°".to_owned()));
+        assert_eq!(angle.read("95", None), Err("95 is out of range; use -90 to 90°".to_owned()));
+        assert_eq!(angle.read("", None), Err("nothing was typed; use -90 to 90°".to_owned()));
         let octaves = Allowed::whole(1, 24);
-        assert_eq!(octaves.read("3.5"), Err("3.5 is not a whole number; use 1 to 24".to_owned()));
-        assert_eq!(octaves.read("3 m"), Err("\"3 m\" has a unit, but this is a plain number; use 1 to 24".to_owned()));
-        assert_eq!(Allowed::numbers(Unit::None, 0.0, 100.0).marked(" %").read("50 %"), Ok(50.0));
+        assert_eq!(octaves.read("3.5", None), Err("3.5 is not a whole number; use 1 to 24".to_owned()));
+        assert_eq!(
+            octaves.read("3 m", None),
+            Err("\"3 m\" has a unit, but this is a plain number; use 1 to 24".to_owned())
+        );
+        assert_eq!(Allowed::numbers(Unit::None, 0.0, 100.0).marked(" %").read("50 %", None), Ok(50.0));
     }
 }

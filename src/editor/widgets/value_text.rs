@@ -29,10 +29,12 @@ pub fn read_value(param: &Param, now: &ValueRef<'_>, text: &str, keys: &[char]) 
     let value = match (now.get(), param.domain) {
         (Value::Number(_), domain) => {
             let Domain::Number { min, max, .. } = domain else { return Err("no number can be pasted here".to_owned()) };
-            Value::Number(Allowed::numbers(param.unit, min, max).read(text)?)
+            Value::Number(Allowed::numbers(param.unit, min, max).read(text, None)?)
         }
-        (Value::Count(_), Domain::Count { min, max }) => Value::Count(Allowed::whole(min, max).read(text)? as u32),
-        (Value::Count(_), _) => Value::Count(Allowed::whole(0, u32::MAX).read(text)? as u32),
+        (Value::Count(_), Domain::Count { min, max }) => {
+            Value::Count(Allowed::whole(min, max).read(text, None)? as u32)
+        }
+        (Value::Count(_), _) => Value::Count(Allowed::whole(0, u32::MAX).read(text, None)? as u32),
         (Value::Flag(_), _) => match text.to_lowercase().as_str() {
             "on" | "true" | "yes" | "1" => Value::Flag(true),
             "off" | "false" | "no" | "0" => Value::Flag(false),

@@ -1,0 +1,55 @@
+//! Fields for a choice: one of several names, or a biome of the palette.
+
+use super::param_row::BiomeName;
+use crate::planet::param::Choice;
+use eframe::egui;
+
+/// The choice as a list that opens.
+pub fn choice_box(ui: &mut egui::Ui, name: &str, choice: &mut dyn Choice) {
+    let names = choice.labels();
+    let current = choice.index();
+    let mut chosen = current;
+    egui::ComboBox::from_id_salt("choice")
+        .selected_text(names.get(current).copied().unwrap_or_default())
+        .width(ui.available_width().min(160.0))
+        .show_ui(ui, |ui| {
+            for (index, text) in names.iter().enumerate() {
+                ui.selectable_value(&mut chosen, index, *text);
+            }
+        })
+        .response
+        .accessible_name(name);
+    if chosen != current {
+        choice.set_index(chosen);
+    }
+}
+
+/// The biomes of the palette, by colour and name. A key of no biome shows as "None".
+pub fn biome_box(ui: &mut egui::Ui, name: &str, key: &mut char, biomes: &[BiomeName]) {
+    let chosen = biomes.iter().find(|biome| biome.key == *key);
+    let height = ui.spacing().interact_size.y;
+    if let Some(biome) = chosen {
+        let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(height), egui::Sense::hover());
+        swatch(ui, rect, biome.color);
+    }
+    egui::ComboBox::from_id_salt("biome")
+        .selected_text(chosen.map_or("None", |biome| biome.name.as_str()))
+        .width(ui.available_width().min(160.0))
+        .truncate()
+        .show_ui(ui, |ui| {
+            for biome in biomes {
+                ui.horizontal(|ui| {
+                    let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(height), egui::Sense::hover());
+                    swatch(ui, rect, biome.color);
+                    ui.selectable_value(key, biome.key, &biome.name);
+                });
+            }
+        })
+        .response
+        .accessible_name(name);
+}
+
+fn swatch(ui: &egui::Ui, rect: egui::Rect, color: [f64; 3]) {
+    let [r, g, b] = color.map(|component| component as f32);
+    ui.painter().rect_filled(rect.shrink(3.0), 3.0, egui::Rgba::from_rgb(r, g, b));
+}
