@@ -3,8 +3,8 @@
 //! - Keys in the same frame as a click, or right after it, belong to what the click opens. The field takes the focus at
 //!   the end of the frame of the click, and shows its text in the next one: until then the digits would be shortcuts.
 //! - egui looks at the place of the pointer at the end of a frame alone. A press counts where it was made only if the
-//!   pointer is still there, and a drag that begins and ends in one frame is none. So motion away from a press waits for
-//!   the next frame, and a release after motion waits as well.
+//!   pointer is still there, and a drag that begins and ends in one frame is none. So motion away from a press waits
+//!   for the next frame, and a release after motion waits as well.
 
 use eframe::egui::{Event, Modifiers, PointerButton, Pos2};
 

@@ -37,9 +37,8 @@ fn slope(x: f64, y: f64) -> f64 {
     0.5 + 0.3 * x + 0.25 * y
 }
 
-fn stamped(stamp: PictureStamp, more: impl Fn(GroundEdit) -> GroundEdit) -> Planet {
-    let file = "slope.png".to_owned().into();
-    let stamp = edit(Tool::Picture(PictureStamp { file, ..stamp }), 40.0, &[at(20.0, 30.0)]);
+fn stamped(stamp: &PictureStamp, more: impl Fn(GroundEdit) -> GroundEdit) -> Planet {
+    let stamp = edit(Tool::Picture(stamp.clone()), 40.0, &[at(20.0, 30.0)]);
     let mut planet = planet(0.0, vec![more(GroundEdit { softness: 0.2, ..stamp })]);
     planet.each_picture(|_, file, _| *file = "slope.png".to_owned().into());
     assert!(planet.load_pictures_from(|_| Ok(png(slope))).is_empty());
@@ -50,7 +49,7 @@ fn stamped(stamp: PictureStamp, more: impl Fn(GroundEdit) -> GroundEdit) -> Plan
 fn pixels_lie_where_the_picture_has_them() {
     for (turn_deg, level, height_m) in [(0.0, 0.0, 1000.0), (30.0, 0.5, 800.0), (-140.0, 1.0, -600.0)] {
         let plain = PictureStamp { turn_deg, level, height_m, ..PictureStamp::default() };
-        let terrain = terrain(&stamped(plain, |edit| edit));
+        let terrain = terrain(&stamped(&plain, |edit| edit));
         for (heading_deg, share) in [(0.0, 0.0), (0.0, 0.4), (77.0, 0.6), (200.0, 0.55), (270.0, 0.79)] {
             let found_m = terrain.height_m(beside(&at(20.0, 30.0), heading_deg, 40.0 * share));
             // The picture is turned clockwise, so a heading counts from its top.
@@ -71,7 +70,7 @@ fn copies_are_turned_at_random_or_not() {
     // The slope at the middle of each copy tells how it is turned.
     let turns = |random_turn_deg: f64| -> Vec<f64> {
         let stamp = PictureStamp { random_turn_deg, ..PictureStamp::default() };
-        let planet = stamped(stamp, |edit| GroundEdit { copies: 40, spread_km: 900.0, smallest: 1.0, ..edit });
+        let planet = stamped(&stamp, |edit| GroundEdit { copies: 40, spread_km: 900.0, smallest: 1.0, ..edit });
         let terrain = terrain(&planet);
         let ground = (0..40_000).map(|i| beside(&at(20.0, 30.0), f64::from(i) * 7.31, f64::from(i) * 0.02));
         let high = ground.filter(|dir| terrain.height_m(*dir) > 100.0).map(|dir| {
