@@ -9,6 +9,7 @@ use super::handlers::{
 };
 use super::state::State;
 use super::state::questions::Goal;
+use crate::planet::param::{ParamPath, ValueMut};
 use eframe::egui;
 
 /// Carries out the actions of the last frame. Gives those that wait until a typed value has been taken over.
@@ -37,13 +38,33 @@ fn takes_typed_value(action: &Action) -> bool {
         Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
         // A field of the window is being typed in: its value would be lost.
         Action::System(SystemAction::Edit(..)) => false,
-        Action::System(_) | Action::Library(_) | Action::Browse(_) => true,
+        Action::System(_) | Action::Library(_) | Action::Browse(_) | Action::SetNumber(..) => true,
         Action::OpenPath(_) | Action::OpenShipped(_) | Action::Begin(_) => true,
         Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) | Action::Shoot(_) | Action::Bake(_) => false,
         Action::Panel(PanelAction::Reveal { .. }) | Action::Jump(_) | Action::ToggleLock(_) | Action::Clip(_) => true,
         Action::Variation(action) => matches!(action, VariationAction::Take(_) | VariationAction::UnlockAll),
         Action::Search(_) | Action::Panel(_) | Action::GoToPlace(_) => false,
         Action::DismissMessage | Action::Close(_) | Action::ClearRecent => false,
+    }
+}
+
+/// Gives a parameter a number, as one undo step, and shows its row.
+fn set_number(state: &mut State, path: ParamPath, number: f64) {
+    let mut planet = (**state.document.planet()).clone();
+    let mut shown = None;
+    planet.each(&mut |at, param, value| {
+        if *at == path {
+            shown = Some(param.name);
+            match value {
+                ValueMut::Number(now) => *now = number,
+                ValueMut::Count(now) => *now = number as u32,
+                _ => {}
+            }
+        }
+    });
+    state.edit(planet, None);
+    if let Some(name) = shown {
+        state.ask_panel(PanelAction::Reveal { path, name });
     }
 }
 
@@ -55,6 +76,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Begin(template) => opening::begin(state, ctx, template),
         Action::ClearRecent => state.recent.clear(),
         Action::Browse(path) => pictures::browse(state, ctx, path),
+        Action::SetNumber(path, number) => set_number(state, path, number),
         Action::Search(text) => state.search(Some(text)),
         Action::Panel(asked) => state.ask_panel(asked),
         Action::Variation(action) => variations::act(state, action),

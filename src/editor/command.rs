@@ -98,6 +98,8 @@ pub enum Action {
     ClearRecent,
     /// Choose a file for the parameter at this path.
     Browse(ParamPath),
+    /// Give the parameter at this path a number, and show it.
+    SetNumber(ParamPath, f64),
     /// Open the finder with this text.
     Search(String),
     /// Change what the side panel shows.

@@ -192,3 +192,17 @@ fn every_sign_of_the_finder_is_in_the_fonts() {
     let harness = editor(vec![]);
     assert!(harness.ctx.fonts_mut(|fonts| fonts.has_glyphs(&egui::FontId::default(), "›…°“”")));
 }
+
+#[test]
+fn a_number_behind_a_name_is_set_in_one_step() {
+    let mut harness = editor(vec![]);
+    let before = planet(&harness).radius_km;
+    find(&mut harness, "radius *2");
+    assert!(chosen(&harness).starts_with("Planet › Set radius to "), "{}", chosen(&harness));
+    enter(&mut harness);
+    assert_eq!(planet(&harness).radius_km, 2.0 * before);
+    assert_eq!(undo_label(&harness), "Change radius");
+    assert!(harness.query_by_label("Radius of planet as a number").is_some(), "its row is shown");
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(planet(&harness).radius_km, before);
+}

@@ -9,9 +9,11 @@ use crate::editor::files::file_names::readable_stem;
 use crate::editor::panels::layers::NEED_STRUCTURE;
 use crate::editor::panels::{PANELS, Panel};
 use crate::editor::state::State;
+use crate::editor::state::describe::lower_first;
 use crate::editor::widgets::keys_text;
 use crate::editor::widgets::number::{format_number, suffix};
-use crate::planet::param::{Param, ParamPath, Segment, Value, ValueRef};
+use crate::editor::widgets::typed::Allowed;
+use crate::planet::param::{Domain, Param, ParamPath, Segment, Value, ValueRef};
 use crate::planet::{Planet, shipped};
 use eframe::egui;
 use std::path::Path;
@@ -26,6 +28,8 @@ const IN_DESCRIPTION: i32 = 14;
 const USED: i32 = 5;
 /// Shortest word that is looked for in descriptions: shorter ones are in too many.
 const LEAST_DESCRIBED: usize = 3;
+/// Most entries that give a parameter a number.
+const MOST_SETTINGS: usize = 5;
 /// Most characters of a value.
 const VALUE_CHARS: usize = 20;
 
@@ -41,6 +45,8 @@ pub struct Entry {
     pub enabled: bool,
     /// What happens when it is chosen.
     pub action: Action,
+    /// Of a number: the parameter and the number.
+    number: Option<(&'static Param, f64)>,
     /// What it does, in lower case.
     description: String,
     name_text: Text,
@@ -64,6 +70,7 @@ impl Entry {
             hint: String::new(),
             enabled: true,
             action,
+            number: None,
             description: description.to_lowercase(),
             name_text: Text::new(name),
             place_text: Text::new(place),
@@ -73,6 +80,22 @@ impl Entry {
     /// The flight to a location that was typed.
     pub fn of_place(place: Place) -> Self {
         Self::new(&format!("Go to {place}"), "Camera", "", Action::GoToPlace(place))
+    }
+
+    /// The change of a parameter to a number that was typed behind its name. None unless it is a number that the
+    /// parameter may have.
+    fn to_number(&self, text: &str) -> Option<Self> {
+        let (param, now) = self.number?;
+        let Action::Panel(PanelAction::Reveal { path, .. }) = &self.action else { return None };
+        let allowed = match param.domain {
+            Domain::Number { min, max, .. } => Allowed::numbers(param.unit, min, max),
+            Domain::Count { min, max } => Allowed::whole(min, max),
+            _ => return None,
+        };
+        let number = allowed.read(text, Some(now)).ok()?;
+        let name = format!("Set {} to {}{}", lower_first(&self.name), format_number(number), suffix(param.unit));
+        let action = Action::SetNumber(path.clone(), number);
+        Some(Self { hint: self.hint.clone(), ..Self::new(&name, &self.place, "", action) })
     }
 
     /// A name that is the same at every start: that of undo does not tell the step.
@@ -151,7 +174,12 @@ pub fn parameters(planet: &Planet) -> Vec<Entry> {
         let part = Planet::PARTS.iter().find(|part| path.segments().first() == Some(&Segment::Field(part.name)));
         let description = format!("{} {path} {}", param.doc, part.map_or("", |part| part.doc));
         let hint = value_text(param, &value);
-        entries.push(Entry { hint, ..Entry::new(param.label, &place, &description, action) });
+        let number = match value {
+            ValueRef::Number(number) => Some((param, number)),
+            ValueRef::Count(count) => Some((param, f64::from(count))),
+            _ => None,
+        };
+        entries.push(Entry { hint, number, ..Entry::new(param.label, &place, &description, action) });
     });
     entries
 }
@@ -233,6 +261,17 @@ pub fn search(entries: &[Entry], text: &str, used: &[String]) -> Vec<Found> {
     fits.into_iter().map(|(_, found)| found).collect()
 }
 
+/// Entries that give parameters a number, for a text of a name and a number: "sea level 400 m". Best first.
+pub fn settings(entries: &[Entry], text: &str) -> Vec<Entry> {
+    let begins = |word: &str| word.starts_with(|c: char| c.is_ascii_digit() || "+-−*/.(".contains(c));
+    let number = text.match_indices(' ').map(|(at, _)| at + 1).find(|at| begins(&text[*at..]));
+    let Some((name, number)) = number.map(|at| text.split_at(at)).filter(|(name, _)| !name.trim().is_empty()) else {
+        return Vec::new();
+    };
+    let found = search(entries, name, &[]);
+    found.iter().filter_map(|found| entries.get(found.entry)?.to_number(number)).take(MOST_SETTINGS).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -257,6 +296,20 @@ mod tests {
         let seas = names(&entries, "sea col", &[]);
         assert_eq!(seas[0], "Water › Deep colour", "what belongs to the sea comes before strewn letters: {seas:?}");
         assert!(names(&entries, "xyzzy", &[]).is_empty());
+    }
+
+    #[test]
+    fn a_number_behind_a_name_is_offered() {
+        let planet = shipped::layered();
+        let entries = parameters(&planet);
+        let first = |text: &str| settings(&entries, text).into_iter().next().map(|entry| entry.accessible_name());
+        assert_eq!(first("radius 3000").as_deref(), Some("Planet › Set radius to 3000 km"));
+        let doubled = format!("Planet › Set radius to {} km", format_number(2.0 * planet.radius_km));
+        assert_eq!(first("radius *2"), Some(doubled));
+        assert_eq!(first("sea level -0.4 km").as_deref(), Some("Water › Set sea level to -400 m"));
+        for none in ["radius", "3000", " 3000", "radius 5 parsecs", "xyzzy 3"] {
+            assert!(first(none).is_none(), "{none}");
+        }
     }
 
     #[test]

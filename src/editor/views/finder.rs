@@ -101,7 +101,7 @@ impl FinderWindow {
     fn field(&mut self, ui: &mut egui::Ui) {
         let edit = egui::TextEdit::singleline(&mut self.text)
             .id(egui::Id::unique("finder field"))
-            .hint_text("Find a command, planet, bookmark or parameter, or type a place: 12.5 N 45 W")
+            .hint_text("Find a command, planet or parameter; set one: sea level 400; or go: 12.5 N 45 W")
             .font(FontId::proportional(15.0))
             .margin(egui::Margin::symmetric(8, 6))
             .desired_width(f32::INFINITY);
@@ -115,9 +115,13 @@ impl FinderWindow {
         if self.searched.as_ref() == Some(&self.text) {
             return;
         }
-        // The entry of a location is made for the text, and comes first.
-        self.entries.retain(|entry| !matches!(entry.action, Action::GoToPlace(_)));
+        // The entries of numbers and of a location are made for the text, and come first.
+        self.entries.retain(|entry| !matches!(entry.action, Action::GoToPlace(_) | Action::SetNumber(..)));
         self.found = entries::search(&self.entries, &self.text, &self.used);
+        for setting in entries::settings(&self.entries, &self.text).into_iter().rev() {
+            self.found.insert(0, Found { entry: self.entries.len(), letters: Vec::new() });
+            self.entries.push(setting);
+        }
         if let Ok(place) = place::read(&self.text) {
             self.found.insert(0, Found { entry: self.entries.len(), letters: Vec::new() });
             self.entries.push(Entry::of_place(place));
