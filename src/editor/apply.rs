@@ -9,6 +9,7 @@ use super::handlers::{
 };
 use super::state::State;
 use super::state::questions::Goal;
+use super::widgets::number::{format_number, suffix};
 use crate::planet::param::{ParamPath, ValueMut};
 use eframe::egui;
 
@@ -48,13 +49,13 @@ fn takes_typed_value(action: &Action) -> bool {
     }
 }
 
-/// Gives a parameter a number, as one undo step, and shows its row.
-fn set_number(state: &mut State, path: ParamPath, number: f64) {
+/// Gives a parameter a number, as one undo step, and says so.
+fn set_number(state: &mut State, path: &ParamPath, number: f64) {
     let mut planet = (**state.document.planet()).clone();
-    let mut shown = None;
+    let mut said = None;
     planet.each(&mut |at, param, value| {
-        if *at == path {
-            shown = Some(param.name);
+        if at == path {
+            said = Some(format!("{}: {}{}", param.label, format_number(number), suffix(param.unit)));
             match value {
                 ValueMut::Number(now) => *now = number,
                 ValueMut::Count(now) => *now = number as u32,
@@ -63,8 +64,8 @@ fn set_number(state: &mut State, path: ParamPath, number: f64) {
         }
     });
     state.edit(planet, None);
-    if let Some(name) = shown {
-        state.ask_panel(PanelAction::Reveal { path, name });
+    if let Some(said) = said {
+        state.notices.say(said);
     }
 }
 
@@ -76,7 +77,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Begin(template) => opening::begin(state, ctx, template),
         Action::ClearRecent => state.recent.clear(),
         Action::Browse(path) => pictures::browse(state, ctx, path),
-        Action::SetNumber(path, number) => set_number(state, path, number),
+        Action::SetNumber(path, number) => set_number(state, &path, number),
         Action::Search(text) => state.search(Some(text)),
         Action::Panel(asked) => state.ask_panel(asked),
         Action::Variation(action) => variations::act(state, action),

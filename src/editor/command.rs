@@ -98,7 +98,7 @@ pub enum Action {
     ClearRecent,
     /// Choose a file for the parameter at this path.
     Browse(ParamPath),
-    /// Give the parameter at this path a number, and show it.
+    /// Give the parameter at this path a number.
     SetNumber(ParamPath, f64),
     /// Open the finder with this text.
     Search(String),

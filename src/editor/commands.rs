@@ -389,7 +389,7 @@ fn camera_mode(mode: Mode) -> Row {
     Row::new(Command::Move(mode), mode.label(), tooltip, move |state, _| {
         // The arrows and the mouse are found; these are not.
         if mode == Mode::Walk && state.viewport.cameras().mode() != Mode::Walk {
-            state.notices.say("Walk with W A S D and Shift, drag to look around; F2 goes back to the orbit".to_owned());
+            state.notices.say("Walk with W A S D and Shift, drag to look around; F2 orbits, scroll to rise".to_owned());
         }
         state.move_cameras(|cameras, ground| cameras.set_mode(mode, ground));
         state.viewport.take_focus();

@@ -202,7 +202,7 @@ fn a_number_behind_a_name_is_set_in_one_step() {
     enter(&mut harness);
     assert_eq!(planet(&harness).radius_km, 2.0 * before);
     assert_eq!(undo_label(&harness), "Change radius");
-    assert!(harness.query_by_label("Radius of planet as a number").is_some(), "its row is shown");
+    assert!(harness.query_by_label_contains("Radius: ").is_some(), "it is said");
     press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
     assert_eq!(planet(&harness).radius_km, before);
 }

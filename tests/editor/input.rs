@@ -361,3 +361,48 @@ fn copied(harness: &Editor) -> Option<String> {
         _ => None,
     })
 }
+
+#[test]
+fn a_fine_drag_stays_fine_to_its_end_and_tab_leads_to_the_next_number() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Star");
+    enter(&mut harness, "Latitude of star as a number", "20");
+    let slider = harness.get_by_label("Latitude of star").rect();
+    let place = egui::pos2(slider.left() + 0.5 * slider.width(), slider.center().y);
+    let button = |pos, pressed, modifiers| egui::Event::PointerButton {
+        pos,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers,
+    };
+    let step = |harness: &mut Editor, events: Vec<egui::Event>| {
+        events.into_iter().for_each(|event| harness.event(event));
+        harness.run_steps(1);
+    };
+    let shift = egui::Modifiers::SHIFT;
+    step(&mut harness, vec![egui::Event::ModifiersChanged(shift), egui::Event::PointerMoved(place)]);
+    step(&mut harness, vec![button(place, true, shift)]);
+    let to = place + egui::vec2(20.0, 0.0);
+    step(&mut harness, vec![egui::Event::PointerMoved(place + egui::vec2(10.0, 0.0))]);
+    step(&mut harness, vec![egui::Event::PointerMoved(to)]);
+    let fine = planet(&harness).star.latitude_deg;
+    assert!(fine > 20.0 && fine < 22.0, "{fine}");
+    // Shift goes up before the button.
+    step(&mut harness, vec![egui::Event::ModifiersChanged(egui::Modifiers::NONE)]);
+    step(&mut harness, vec![]);
+    step(&mut harness, vec![button(to, false, egui::Modifiers::NONE)]);
+    step(&mut harness, vec![]);
+    assert_eq!(planet(&harness).star.latitude_deg, fine);
+
+    harness.get_by_role_and_label(Role::SpinButton, "Latitude of star as a number").focus();
+    harness.run_steps(2);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::A);
+    harness.event(egui::Event::Text("31".to_owned()));
+    harness.run_steps(1);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Tab);
+    harness.event(egui::Event::Text("-7".to_owned()));
+    harness.run_steps(1);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Enter);
+    let star = planet(&harness).star;
+    assert_eq!((star.latitude_deg, star.longitude_deg), (31.0, -7.0));
+}

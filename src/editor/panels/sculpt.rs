@@ -159,7 +159,7 @@ fn tools(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
         _ if state.measures => MEASURES,
         (false, _) => {
             "Choose a tool to sculpt. Without one, drags move the camera; points of the selected edit move, with Ctrl the \
-             whole edit, with Shift it turns; the square draws its radius."
+             whole edit, with Shift it turns; the square draws its radius and turns a picture."
         }
         (true, Some(tool)) if tool.is_stamp() => {
             "Click to place it; drag to draw its size. Alt and drag moves the camera; [ and ] change the size."

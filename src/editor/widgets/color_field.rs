@@ -37,7 +37,15 @@ pub fn hex_field(ui: &mut egui::Ui, name: &str, value: &mut [f64; 3]) {
                 *value = [linear.r(), linear.g(), linear.b()].map(rounded);
             }
             Ok(_) => {}
-            Err(_) => typed::refuse(ui, response.id, format!("{text:?} is no colour; use a code such as #5C3A93")),
+            Err(_) => {
+                typed::refuse(ui, response.id, format!("{text:?} is no colour; use a code such as #5C3A93"));
+                // The text stays, to be corrected.
+                if ui.input(|input| input.key_pressed(egui::Key::Enter)) {
+                    ui.data_mut(|data| data.insert_temp(id, text));
+                    response.request_focus();
+                    select_all(&response);
+                }
+            }
         }
     }
     typed::tell(ui, &response);

@@ -290,18 +290,23 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> (bool,
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
             // A wide range around zero is logarithmic on both sides: a sea level may be metres or kilometres.
             let is_wide = min < 0.0 && max >= WIDE;
+            // A drag with Shift is fine to its end: the slider itself would jump to the pointer. A press is a drag.
+            let fine_id = ui.scope_id().with(("fine", &name));
+            let is_fine = ui.data(|data| data.get_temp(fine_id).unwrap_or(false)) || ui.input(|i| i.modifiers.shift);
             let before = **v;
-            let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS));
+            let mut set = get_set(v, NUMBER_DIGITS);
+            let slider = egui::Slider::from_get_set(min..=max, |new| set(new.filter(|_| !is_fine)));
             // A logarithmic range that begins at zero needs a least value: a hundred-thousandth of the range is
             // finer than a pixel of the slider.
             let least = max.abs() * if is_wide { 1e-3 } else { 1e-5 };
             let slider = slider.logarithmic(logarithmic || is_wide).smallest_positive(least);
             let response = add_slider(ui, &name, slider);
-            // The press and the release move the handle to the pointer as well.
-            if response.interact_pointer_pos().is_some() && ui.input(|input| input.modifiers.shift) {
+            let is_held = response.interact_pointer_pos().is_some();
+            if is_held && is_fine {
                 let share = f64::from(response.drag_delta().x / response.rect.width());
                 get_set(v, NUMBER_DIGITS)(Some(drag_finely(before, share, [min, max], logarithmic)));
             }
+            ui.data_mut(|data| data.insert_temp(fine_id, is_held && is_fine));
             let field = focus(number_field(ui, &name, row.param, v, min, max, logarithmic));
             number = Some(field.union(response));
         }

@@ -130,6 +130,7 @@ pub fn typed_field(
         Some(size) => ui.add_sized(size, number),
         None => ui.add(number),
     };
+    tab_to_next(ui, &response);
     if let Some(taken) = taken.take() {
         ui.data_mut(|data| data.insert_temp(taken_place(), taken));
     }
@@ -160,6 +161,19 @@ pub fn plain_field(
         .max_decimals(9)
         .custom_formatter(move |v, _| format_digits(v, digits));
     typed_field(ui, None, number, allowed, &shown, now)
+}
+
+/// Tab leads from one number to the next, past the slider and the reset button between them.
+fn tab_to_next(ui: &egui::Ui, field: &egui::Response) {
+    let (place, pass) = (egui::Id::unique("tab to number"), ui.ctx().cumulative_pass_nr());
+    let is_asked = ui.data(|data| data.get_temp::<u64>(place)) == Some(pass);
+    if is_asked && !field.lost_focus() {
+        ui.data_mut(|data| data.remove::<u64>(place));
+        field.request_focus();
+        select_all(field);
+    } else if field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Tab) && i.modifiers.is_none()) {
+        ui.data_mut(|data| data.insert_temp(place, pass));
+    }
 }
 
 /// Notes why a field has refused a text.
