@@ -294,13 +294,14 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> (bool,
             let fine_id = ui.scope_id().with(("fine", &name));
             let is_fine = ui.data(|data| data.get_temp(fine_id).unwrap_or(false)) || ui.input(|i| i.modifiers.shift);
             let before = **v;
-            let mut set = get_set(v, NUMBER_DIGITS);
-            let slider = egui::Slider::from_get_set(min..=max, |new| set(new.filter(|_| !is_fine)));
             // A logarithmic range that begins at zero needs a least value: a hundred-thousandth of the range is
             // finer than a pixel of the slider.
             let least = max.abs() * if is_wide { 1e-3 } else { 1e-5 };
-            let slider = slider.logarithmic(logarithmic || is_wide).smallest_positive(least);
-            let response = add_slider(ui, &name, slider);
+            let response = {
+                let mut set = get_set(v, NUMBER_DIGITS);
+                let slider = egui::Slider::from_get_set(min..=max, move |new| set(new.filter(|_| !is_fine)));
+                add_slider(ui, &name, slider.logarithmic(logarithmic || is_wide).smallest_positive(least))
+            };
             let is_held = response.interact_pointer_pos().is_some();
             if is_held && is_fine {
                 let share = f64::from(response.drag_delta().x / response.rect.width());
