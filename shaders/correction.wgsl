@@ -1,6 +1,7 @@
 // Light that air and ground have scattered, gathered from all around from the light in the LUT so far: one step of the
 // iteration that solves the equation of radiative transfer. That light is smooth, so few directions and steps suffice.
 #include "gather.wgsl"
+#include "skylit.wgsl"
 
 const UPPER: u32 = 3u;
 const LOWER: u32 = 2u;
@@ -12,15 +13,6 @@ const NODES: array<vec2f, 5> = array<vec2f, 5>(
     vec2f(0.7886751346, 0.5),
 );
 const STEPS: u32 = 6u;
-
-// Radiance of the ground in light from the sky. On the ground, half of all directions see the sky, and half see the
-// ground. `skylit`: whether the ground in the LUT is itself skylit.
-fn skylit_ground(sun_mu: f32, skylit: bool) -> vec3f {
-    let light = scattered_light(0.0, sun_mu);
-    // The mean over the sky weighted by the cosine, if the sky changes with the squared cosine to the zenith.
-    let sky = light.mean * (2.0 + 3.75 * squared_up(light, sun_mu)) - sunlit_ground(sun_mu);
-    return body.ground_albedo * max(sky, vec3f(0.0)) / select(vec3f(1.0), 1.0 + body.ground_albedo, skylit);
-}
 
 // Light from the texel of a pixel, in two layers from the given one.
 fn own_light(pixel: vec4f, layer: i32) -> Diffuse {

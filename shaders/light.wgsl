@@ -112,6 +112,45 @@ fn scattered(air: Air, light: Diffuse, moments: vec2f, mu: f32, cosine: f32) -> 
     return light.mean * (air.rayleigh * max(rayleigh, vec3f(0.0)) + air.mie * max(mie, vec3f(0.0)));
 }
 
+// Where a cosine to the zenith lies between nadir (0) and zenith (1) in the LUT: nearly even in the angle.
+fn unit_of_view(mu: f32) -> f32 {
+    let from_pole = sqrt(max(0.0, 1.0 - abs(mu)));
+    return select(0.5 * from_pole, 1.0 - 0.5 * from_pole, mu >= 0.0);
+}
+
+// The inverse of unit_of_view.
+fn view_cosine_at(unit: f32) -> f32 {
+    let from_pole = 1.0 - abs(2.0 * unit - 1.0);
+    let mu = 1.0 - from_pole * from_pole;
+    return select(-mu, mu, unit >= 0.5);
+}
+
+// Radiance that air scatters for a second time or more, per scattering coefficient of all air, for unit irradiance.
+// `mu` and `cosine`: cosines of the ray to the zenith and to the sun.
+fn scattered_again(h: f32, sun_mu: f32, mu: f32, cosine: f32) -> vec3f {
+    let across = sqrt(max(0.0, (1.0 - mu * mu) * (1.0 - sun_mu * sun_mu)));
+    let turn = clamp((cosine - mu * sun_mu) / max(across, 1e-6), -1.0, 1.0);
+    let node = vec2f(unit_of_view(mu), sqrt(0.5 - 0.5 * turn)) * (GLOW_TILES - 1.0);
+    let first = clamp(floor(node), vec2f(0.0), GLOW_TILES - 2.0);
+    let part = node - first;
+    let size = GLOW_TILES * MULTISCATTER_SIZE;
+    let x = vec2f(unit_of_sun(sun_mu), sqrt(saturate1(h / body.air_height_km)));
+    let at = (clamp(x, vec2f(0.0), vec2f(1.0)) * (MULTISCATTER_SIZE - 1.0) + 0.5 + first * MULTISCATTER_SIZE) / size;
+    let next = 1.0 / GLOW_TILES;
+    let near = mix(
+        textureSampleLevel(glow_lut, clamped, at, 0, 0.0).rgb,
+        textureSampleLevel(glow_lut, clamped, at + vec2f(next.x, 0.0), 0, 0.0).rgb,
+        part.x,
+    );
+    let far = mix(
+        textureSampleLevel(glow_lut, clamped, at + vec2f(0.0, next.y), 0, 0.0).rgb,
+        textureSampleLevel(glow_lut, clamped, at + next, 0, 0.0).rgb,
+        part.x,
+    );
+    let root = mix(near, far, part.y);
+    return root * root / MULTISCATTER_SCALE;
+}
+
 // Radiance of the night sky: mean over stars, dust and airglow. Sunlit white ground has radiance 1. On the Earth,
 // twilight is as bright with the sun 7 degrees below the horizon. The dark-adapted eye sees a thousandth of it, but 16
 // bits do not resolve that.

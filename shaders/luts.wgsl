@@ -5,6 +5,9 @@
 // cosine to the sun of the light around the sun. 1: without that light, rgb mean squared cosine to the zenith, a mean
 // cosine to the zenith. 2 and 3: the same for light scattered once
 @group(1) @binding(1) var multiscatter_lut: texture_2d_array<f32>;
+// In the same place, for drawing: light that air scatters for a second time or more, by direction. A tile of the size
+// of the LUT above for each node of the cosine to the zenith (across) and of the azimuth from the sun (down)
+@group(1) @binding(1) var glow_lut: texture_2d_array<f32>;
 @group(1) @binding(2) var irradiance_lut: texture_2d<f32>;
 @group(1) @binding(3) var sky_lut: texture_2d<f32>;
 // Cube 0: r log-odds of the target cover without the offset, g wind by its mean, b log-odds of fog, a its rank. Cubes 1

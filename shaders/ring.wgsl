@@ -13,7 +13,6 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
     let path_km = max(ray_sphere(b, (h - top) * (2.0 * radius + h + top)).y, 0.0);
     let step = sqrt(path_km) / f32(steps);
     let flat = sqrt(max(0.0, 1.0 - mu * mu)) * sqrt(max(0.0, 1.0 - sun_mu * sun_mu));
-    let moments = haze_moments();
     // For each sample: its cosine to the sun, and the phase functions of molecules and haze. These change faster around
     // the ring than light does: means of three.
     var cosines: array<f32, MOST_AROUND>;
@@ -25,6 +24,8 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
             if e == 1u { cosines[k] = cosine; }
         }
     }
+    // Light scattered before, of each sample. It changes little along the ray: two steps share it.
+    var again: array<vec3f, MOST_AROUND>;
     var sum = vec3f(0.0);
     var transmittance = vec3f(1.0);
     // Distance and altitude of the previous step, for the change of the sun's elevation along the step.
@@ -36,7 +37,11 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
         let t = bent(w + 0.5 * step, 0.0);
         let height = altitude_along(radius, h, mu, t);
         let air = air_at(height);
-        let local_mu = ((radius + h) * mu + t) / (radius + height);
+        let t1 = bent(w + step, 0.0);
+        let end = altitude_along(radius, h, mu, t1);
+        let end_mu = clamp(((radius + h) * mu + t1) / (radius + end), -1.0, 1.0);
+        // Of the cosine of the sun to the zenith there: what does not depend on the azimuth, and what does
+        let end_mus = vec2f((radius + h) * sun_mu, t1) / (radius + end);
         let horizon = horizon_cosine(height);
         let last_horizon = horizon_cosine(last_height);
         var shine = vec3f(0.0);
@@ -47,9 +52,12 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
             let over = mus - vec2f(horizon, last_horizon);
             let visible = disc_share(over.x, select(over.x - over.y, 0.0, i == 0u));
             let direct = air.rayleigh * phases[k].x + air.mie * phases[k].y;
-            let light = scattered_light(height, mus.x);
-            let beam = beam_transmittance(height, mus.x) * visible;
-            shine += scattered(air, light, moments, local_mu, cosine) + direct * beam;
+            if i % 2u == 0u {
+                let end_sun_mu = clamp(end_mus.x + end_mus.y * cosine, -1.0, 1.0);
+                again[k] = scattered_again(end, end_sun_mu, end_mu, cosine);
+            }
+            let beam = clear_transmittance(height, mus.x) * visible;
+            shine += (air.rayleigh + air.mie) * again[k] + direct * beam;
         }
         sum += transmittance * shine * shining_length(air.extinction, length_km);
         transmittance *= exp(-air.extinction * length_km);

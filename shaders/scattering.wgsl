@@ -30,12 +30,12 @@ fn air_light(
     let cosine = dot(dir, sun);
     let phase_rayleigh = rayleigh_phase(cosine);
     let phase_mie = mie_phase(cosine);
-    let moments = haze_moments();
     let sun_up = dot(sun, up);
     let middle = clamp(-(radius + h) * mu, path_km.x, path_km.y);
     let start = -sqrt(middle - path_km.x);
     let step = (sqrt(path_km.y - middle) - start) / steps;
     var last_over = 0.0;
+    var again = vec3f(0.0);
     for (var i = 0.0; i < steps; i += 1.0) {
         let w = start + i * step;
         let t0 = bent(w, middle);
@@ -49,11 +49,16 @@ fn air_light(
         let over = sun_mu - horizon_cosine(height);
         let visible = disc_share(over, select(over - last_over, 0.0, i == 0.0));
         last_over = over;
-        let local_mu = ((radius + h) * mu + t) / (radius + height);
-        var shine = scattered(air, scattered_light(height, sun_mu), moments, local_mu, cosine);
+        // Light scattered before changes little along the ray: two steps share that at the end of the first one.
+        if u32(i) % 2u == 0u {
+            let end = altitude_along(radius, h, mu, t1);
+            let cosines = ((radius + h) * vec2f(mu, sun_up) + t1 * vec2f(1.0, cosine)) / (radius + end);
+            again = scattered_again(end, clamp(cosines.y, -1.0, 1.0), clamp(cosines.x, -1.0, 1.0), cosine);
+        }
+        var shine = (air.rayleigh + air.mie) * again;
         if visible > 0.0 {
             let direct = air.rayleigh * phase_rayleigh + air.mie * phase_mie;
-            shine += direct * beam_transmittance(height, sun_mu) * visible;
+            shine += direct * clear_transmittance(height, sun_mu) * visible;
         }
         shine *= sun_share(up * (radius + h) + dir * t);
         let behind = saturate1((t1 - cloud_at) / max(length_km, 1e-6));

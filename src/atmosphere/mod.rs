@@ -4,7 +4,8 @@
 //! - `line`: a ray over a sphere, in terms of altitude
 //! - `depth`: optical depth to the top of the air, as an integral and as a LUT
 //! - `sunlit`: the sunlight that reaches an altitude
-//! - `multiscatter`: light that is scattered twice or more, as a LUT
+//! - `multiscatter`: light that has been scattered, by its moments, as a LUT
+//! - `glow`: light that is scattered twice or more, by direction, as a LUT
 //! - `scatter`: transmittance to the sun, and radiance along a ray, by the same method as the shaders
 //! - [`mod@reference`]: the same radiance by path tracing: slow, without the approximations of the method
 //!
@@ -13,6 +14,7 @@
 //! sun of unit irradiance. The ground is the reference sphere.
 
 mod depth;
+mod glow;
 mod line;
 mod medium;
 mod multiscatter;

@@ -16,8 +16,8 @@ use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// Texels along the sun's elevation and along the altitude, as in the shaders.
-const COLUMNS: usize = 32;
-const ROWS: usize = 16;
+pub(super) const COLUMNS: usize = 32;
+pub(super) const ROWS: usize = 16;
 /// Columns are densest at the terminator; at this cosine of the sun's zenith angle, they are a quarter as dense.
 const TWILIGHT: f64 = 0.15;
 /// Number of corrections, as in the shaders.
@@ -119,7 +119,7 @@ fn squares(cosine: f64) -> DVec3 {
 }
 
 /// Sine of an angle by its cosine.
-fn flat(mu: f64) -> f64 {
+pub(super) fn flat(mu: f64) -> f64 {
     (1.0 - mu * mu).max(0.0).sqrt()
 }
 
@@ -249,7 +249,12 @@ fn cosine_at(mu: f64, sun_mu: f64, azimuth: f64) -> f64 {
 
 /// Marches along a ray to the ground or out of the air. `step`: gets the distance, the altitude, the coefficients
 /// there, and the length of the step, dimmed by the air up to it and in it. Returns the transmittance.
-fn march(medium: &Medium, line: &Line, steps: u32, mut step: impl FnMut(f64, f64, &Coefficients, DVec3)) -> DVec3 {
+pub(super) fn march(
+    medium: &Medium,
+    line: &Line,
+    steps: u32,
+    mut step: impl FnMut(f64, f64, &Coefficients, DVec3),
+) -> DVec3 {
     let mut transmittance = DVec3::ONE;
     let Some(segment) = line.within(medium.top) else { return transmittance };
     for (t, length) in segment.steps(steps) {
@@ -303,9 +308,8 @@ impl MultiscatterLut {
     fn filled(lit: &SunlitAir, texel: impl Fn(usize, &Point) -> Texel + Sync) -> Self {
         let (radius, top) = (lit.radius, lit.medium.top);
         let at = |i: usize| {
-            let x = (i % COLUMNS) as f64 / (COLUMNS - 1) as f64;
-            let altitude = (((i / COLUMNS) as f64 / (ROWS - 1) as f64).powi(2) * top).clamp(top * 1e-5, top * 0.9999);
-            texel(i, &Point { radius, altitude, sun_mu: sun_mu_at(x) })
+            let (altitude, sun_mu) = point_at(i, top);
+            texel(i, &Point { radius, altitude, sun_mu })
         };
         let texels: Vec<Texel> = (0..COLUMNS * ROWS).into_par_iter().map(at).collect();
         let roots = texels.iter().map(|texel| texel.all.mean.max(DVec3::ZERO).map(f64::sqrt)).collect();
@@ -314,13 +318,30 @@ impl MultiscatterLut {
 
     /// Light at an altitude; `sun_mu`: cosine of the sun's zenith angle.
     pub(super) fn at(&self, altitude: f64, sun_mu: f64) -> Light {
-        let x = unit_of_sun(sun_mu).clamp(0.0, 1.0) * (COLUMNS - 1) as f64;
-        let y = (altitude / self.top).clamp(0.0, 1.0).sqrt() * (ROWS - 1) as f64;
+        let (x, y) = place(altitude / self.top, sun_mu);
         let mean = |of: &dyn Fn(&Light) -> DVec3| bilinear(x, y, COLUMNS, ROWS, |i| of(&self.texels[i].all));
         let shape = mean(&|light| DVec3::new(light.along, light.up, 0.0));
         let root = bilinear(x, y, COLUMNS, ROWS, |i| self.roots[i]);
         Light { mean: root * root, along: shape.x, up: shape.y, zenith: mean(&|light| light.zenith) }
     }
+
+    /// Radiance of the ground in the light of sun and sky.
+    pub(super) fn ground(&self, lit: &SunlitAir, sun_mu: f64) -> DVec3 {
+        sunlit_ground(lit, sun_mu) + skylit_ground(lit, (self, CORRECTIONS), sun_mu)
+    }
+}
+
+/// The altitude and the cosine of the sun's zenith angle of a texel of the LUT.
+pub(super) fn point_at(texel: usize, top: f64) -> (f64, f64) {
+    let x = (texel % COLUMNS) as f64 / (COLUMNS - 1) as f64;
+    let y = (texel / COLUMNS) as f64 / (ROWS - 1) as f64;
+    ((y * y * top).clamp(top * 1e-5, top * 0.9999), sun_mu_at(x))
+}
+
+/// Column and row of the LUT, with fractions. `altitude`: as a share of that of the top of the air.
+pub(super) fn place(altitude: f64, sun_mu: f64) -> (f64, f64) {
+    let x = unit_of_sun(sun_mu).clamp(0.0, 1.0) * (COLUMNS - 1) as f64;
+    (x, altitude.clamp(0.0, 1.0).sqrt() * (ROWS - 1) as f64)
 }
 
 /// Where a cosine of the sun's zenith angle lies between the first column of the LUT (0) and the last one (1). Columns

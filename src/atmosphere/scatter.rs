@@ -1,6 +1,7 @@
 //! Transmittance to the sun, and the radiance that air alone scatters along a ray, by the method of the shaders.
 
 use super::depth;
+use super::glow::GlowLut;
 use super::line::{Line, horizon_mu};
 use super::medium::{Medium, rayleigh_phase};
 use super::multiscatter::{self, Direction, MultiscatterLut};
@@ -37,7 +38,7 @@ impl SkyRay {
 /// A planet's air with its LUTs. A planet without air has transmittance 1 and radiance 0.
 #[derive(Clone, Debug)]
 pub struct Air {
-    pub(super) lit: Option<(SunlitAir, MultiscatterLut)>,
+    pub(super) lit: Option<(SunlitAir, GlowLut)>,
     radius: f64,
 }
 
@@ -49,8 +50,8 @@ impl Air {
     pub fn try_new(planet: &Planet) -> Result<Self, InvalidPlanet> {
         planet.check()?;
         let lit = SunlitAir::new(planet).map(|lit| {
-            let multiscatter = MultiscatterLut::new(&lit);
-            (lit, multiscatter)
+            let glow = GlowLut::new(&lit, &MultiscatterLut::new(&lit));
+            (lit, glow)
         });
         Ok(Self { lit, radius: planet.radius_km })
     }
@@ -68,7 +69,7 @@ impl Air {
     /// Radiance that the air scatters along a ray to the observer, for a sun of unit irradiance, without light from the
     /// ground or the sun's disc.
     pub fn radiance(&self, ray: &SkyRay) -> [f64; 3] {
-        self.lit.as_ref().map_or(DVec3::ZERO, |(lit, multiscatter)| radiance(lit, multiscatter, ray)).to_array()
+        self.lit.as_ref().map_or(DVec3::ZERO, |(lit, glow)| radiance(lit, glow, ray)).to_array()
     }
 
     /// The share of light from a point that air scatters back to it (f_ms in Hillaire's method). It is less than 1: the
@@ -79,23 +80,20 @@ impl Air {
     }
 }
 
-fn radiance(lit: &SunlitAir, multiscatter: &MultiscatterLut, ray: &SkyRay) -> DVec3 {
+fn radiance(lit: &SunlitAir, glow: &GlowLut, ray: &SkyRay) -> DVec3 {
     let (dir, sun) = ray.directions();
     let line = Line { radius: lit.radius, altitude: ray.altitude_m * 1e-3, mu: dir.z };
     let Some(segment) = line.within(lit.medium.top) else { return DVec3::ZERO };
     let cosine = dir.dot(sun);
     let phases = (rayleigh_phase(cosine), lit.medium.mie_phase(cosine));
-    let haze = lit.medium.haze();
     let (mut radiance, mut transmittance) = (DVec3::ZERO, DVec3::ONE);
     for (t, length) in segment.steps(STEPS) {
         let altitude = line.altitude_at(t);
         let sun_mu = (((lit.radius + line.altitude) * sun.z + t * cosine) / (lit.radius + altitude)).clamp(-1.0, 1.0);
         let air = lit.medium.at(altitude);
         let mu = ((lit.radius + line.altitude) * line.mu + t) / (lit.radius + altitude);
-        // The forward peak of haze is part of the beam: scattered once more, it counts as scattered once.
-        let beam = lit.beam(altitude, sun_mu);
-        let light = multiscatter.at(altitude, sun_mu).scattered(&haze, Direction { mu, cosine });
-        let source = air.rayleigh * (beam * phases.0 + light.0) + air.mie * (beam * phases.1 + light.1);
+        let direct = lit.sunlight(altitude, sun_mu) * (air.rayleigh * phases.0 + air.mie * phases.1);
+        let source = direct + air.scattering() * glow.at(altitude, sun_mu, Direction { mu, cosine });
         let passed = (-air.extinction * length).exp();
         radiance += transmittance * source * (1.0 - passed) / air.extinction.max(DVec3::splat(1e-300));
         transmittance *= passed;

@@ -12,7 +12,7 @@ use super::gpu::{self, Slot};
 use super::material_maps::MaterialMaps;
 use super::scene::Scene;
 use super::screen_pass::Shared;
-use super::shared::{IRRADIANCE_SIZE, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SKY_SIZE};
+use super::shared::{GLOW_TILES, IRRADIANCE_SIZE, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SEEN_TILES, SKY_SIZE};
 use super::targets::RADIANCE_FORMAT;
 use super::{RenderError, noise_tile, shaders};
 use crate::planet::{Biomes, Key};
@@ -24,30 +24,47 @@ use std::sync::Arc;
 const DEPTH: usize = 0;
 const MULTISCATTER: usize = 1;
 const OTHER_MULTISCATTER: usize = 2;
-const IRRADIANCE: usize = 3;
-const SKY: usize = 4;
-/// Name, size and number of layers of each.
-const AIR_LUTS: [(&str, [u32; 2], u32); 5] = [
-    ("optical depth", OPTICAL_DEPTH_SIZE, 1),
-    ("multiscatter", MULTISCATTER_SIZE, 4),
-    ("other multiscatter", MULTISCATTER_SIZE, 4),
-    ("irradiance", IRRADIANCE_SIZE, 1),
-    ("sky", SKY_SIZE, 1),
+const SEEN: usize = 3;
+const GLOW: usize = 4;
+const IRRADIANCE: usize = 5;
+const SKY: usize = 6;
+/// Name, size and number of layers of each; `None`: no layers.
+const AIR_LUTS: [(&str, [u32; 2], Option<u32>); 7] = [
+    ("optical depth", OPTICAL_DEPTH_SIZE, None),
+    ("multiscatter", MULTISCATTER_SIZE, Some(4)),
+    ("other multiscatter", MULTISCATTER_SIZE, Some(4)),
+    ("seen", tiled(SEEN_TILES), None),
+    ("glow", tiled(GLOW_TILES), Some(1)),
+    ("irradiance", IRRADIANCE_SIZE, None),
+    ("sky", SKY_SIZE, None),
 ];
-/// The passes that draw them, in order: shader, the LUT drawn, and for shaders that read LUTs, the LUT that they see as
-/// the one of multiple scattering. Each correction of that reads one LUT and draws the other.
-const AIR_PASSES: [(&str, usize, Option<usize>); 8] = [
+/// What a pass may read besides optical depth: the LUTs in the places of multiple scattering and of the sky.
+const READ: [[usize; 2]; 4] = [[MULTISCATTER, DEPTH], [OTHER_MULTISCATTER, DEPTH], [MULTISCATTER, SEEN], [GLOW, DEPTH]];
+const READ_MULTISCATTER: Option<usize> = Some(0);
+const READ_OTHER: Option<usize> = Some(1);
+const READ_SEEN: Option<usize> = Some(2);
+const READ_GLOW: Option<usize> = Some(3);
+/// The passes that draw them, in order: shader, the LUT drawn, and for shaders that read LUTs, the index into [`READ`].
+/// Each correction of multiple scattering reads one LUT and draws the other.
+const AIR_PASSES: [(&str, usize, Option<usize>); 10] = [
     ("optical_depth.wgsl", DEPTH, None),
-    ("multiscatter_guess.wgsl", MULTISCATTER, Some(OTHER_MULTISCATTER)),
-    ("multiscatter_first.wgsl", OTHER_MULTISCATTER, Some(MULTISCATTER)),
-    ("multiscatter.wgsl", MULTISCATTER, Some(OTHER_MULTISCATTER)),
-    ("multiscatter.wgsl", OTHER_MULTISCATTER, Some(MULTISCATTER)),
-    ("multiscatter.wgsl", MULTISCATTER, Some(OTHER_MULTISCATTER)),
-    ("irradiance.wgsl", IRRADIANCE, Some(MULTISCATTER)),
-    ("sky.wgsl", SKY, Some(MULTISCATTER)),
+    ("multiscatter_guess.wgsl", MULTISCATTER, READ_OTHER),
+    ("multiscatter_first.wgsl", OTHER_MULTISCATTER, READ_MULTISCATTER),
+    ("multiscatter.wgsl", MULTISCATTER, READ_OTHER),
+    ("multiscatter.wgsl", OTHER_MULTISCATTER, READ_MULTISCATTER),
+    ("multiscatter.wgsl", MULTISCATTER, READ_OTHER),
+    ("seen.wgsl", SEEN, READ_MULTISCATTER),
+    ("glow.wgsl", GLOW, READ_SEEN),
+    ("irradiance.wgsl", IRRADIANCE, READ_GLOW),
+    ("sky.wgsl", SKY, READ_GLOW),
 ];
 /// The first pass of each key: optical depth, scattered light.
 const FIRST_OF_KEY: [usize; 2] = [0, 1];
+
+/// Size of a LUT of tiles.
+const fn tiled(tiles: [u32; 2]) -> [u32; 2] {
+    [tiles[0] * MULTISCATTER_SIZE[0], tiles[1] * MULTISCATTER_SIZE[1]]
+}
 
 /// Number of times that each texture of a body, and its uniforms, have been written since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -101,7 +118,7 @@ impl LutPipelines {
                 entry,
                 layout: &gpu::pipeline_layout(device, entry, groups),
                 module: &shaders::module(device, entry)?,
-                targets: &vec![Some(RADIANCE_FORMAT.into()); AIR_LUTS[drawn].2 as usize],
+                targets: &vec![Some(RADIANCE_FORMAT.into()); AIR_LUTS[drawn].2.unwrap_or(1) as usize],
                 writes_depth: false,
                 encodes_srgb: false,
                 is_linear: false,
@@ -121,11 +138,11 @@ struct AirLut {
 }
 
 impl AirLut {
-    fn new(device: &wgpu::Device, &(name, size, layers): &(&str, [u32; 2], u32)) -> Self {
-        if layers == 1 {
+    fn new(device: &wgpu::Device, &(name, size, layers): &(&str, [u32; 2], Option<u32>)) -> Self {
+        let Some(layers) = layers else {
             let all = gpu::target(device, name, size, RADIANCE_FORMAT);
             return Self { layers: vec![all.clone()], all };
-        }
+        };
         let (all, layers) = gpu::layered_target(device, name, size, layers, RADIANCE_FORMAT);
         Self { all, layers }
     }
@@ -148,12 +165,10 @@ pub(crate) struct Luts {
     pub(crate) runs: LutRuns,
 }
 
-/// Bind groups with all LUTs for drawing, and without the light of the sky for drawing the LUTs of the air: with either
-/// LUT of multiple scattering.
+/// Bind groups with all LUTs for drawing, and for drawing the LUTs of the air, as in [`READ`].
 struct Groups {
     all: wgpu::BindGroup,
-    with_multiscatter: wgpu::BindGroup,
-    with_other: wgpu::BindGroup,
+    air: [wgpu::BindGroup; READ.len()],
 }
 
 impl Luts {
@@ -283,8 +298,7 @@ impl Luts {
         for (pipeline, (shader, drawn, read)) in pipelines.air.iter().zip(AIR_PASSES).skip(first) {
             let groups = match read {
                 None => vec![uniforms],
-                Some(MULTISCATTER) => vec![uniforms, &self.groups.with_multiscatter],
-                Some(_) => vec![uniforms, &self.groups.with_other],
+                Some(read) => vec![uniforms, &self.groups.air[read]],
             };
             let layers: Vec<_> = self.air[drawn].layers.iter().collect();
             gpu::draw_screen(encoder, shader, pipeline, &groups, &layers);
@@ -326,9 +340,8 @@ impl Groups {
         };
         // A texture must not be bound while it is drawn, so optical depth stands in for the light of the sky.
         Self {
-            all: bind([DEPTH, MULTISCATTER, IRRADIANCE, SKY]),
-            with_multiscatter: bind([DEPTH, MULTISCATTER, DEPTH, DEPTH]),
-            with_other: bind([DEPTH, OTHER_MULTISCATTER, DEPTH, DEPTH]),
+            all: bind([DEPTH, GLOW, IRRADIANCE, SKY]),
+            air: READ.map(|[scattered, other]| bind([DEPTH, scattered, DEPTH, other])),
         }
     }
 }

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use tellus::atmosphere::{Air, SkyRay, reference};
 use tellus::planet::param::{Domain, ValueMut};
-use tellus::planet::{Atmosphere, Biomes, Planet, STARTING_AIRS, Starting};
+use tellus::planet::{Atmosphere, Biomes, Planet, STARTING_AIRS, Starting, shipped};
 
 fn earth() -> Planet {
     Planet::from_text("earth_air.ron", include_str!("../fixtures/earth_air.ron")).unwrap()
@@ -131,6 +131,31 @@ fn hazy_airs_are_nearly_as_bright_as_by_path_tracing() {
         }
         off.sort_by(f64::total_cmp);
         assert!(off[off.len() / 2] < median && off[off.len() - 1] < worst, "{name}: {off:?}");
+    }
+}
+
+/// Dust scatters forward, and its light comes both from around the sun and from along the horizon: moments of the light
+/// alone leave 40% of Cinnabar's figures more than 5% off, away from the sun by up to 20%.
+#[test]
+fn the_air_of_shipped_planets_is_nearly_as_bright_as_by_path_tracing() {
+    let ground = [(0.0, 0.0), (45.0, 0.0), (45.0, 90.0), (45.0, 180.0), (80.0, 0.0), (80.0, 90.0), (80.0, 180.0)];
+    let high = [(45.0, 90.0), (85.0, 0.0), (85.0, 180.0), (100.0, 180.0), (150.0, 90.0)];
+    // The share of figures that may be more than 5% off, and the worst of all.
+    for (file, share, worst) in [("cinnabar.ron", 0.12, 0.2), ("maren.ron", 0.0, 0.05), ("hoarfrost.ron", 0.0, 0.05)] {
+        let planet = shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap();
+        let air = Air::try_new(&planet).unwrap();
+        let mut off = Vec::new();
+        for sun in [30.0, 60.0, 80.0, 88.0] {
+            let from = |altitude_m: f64| move |&(view, azimuth): &(f64, f64)| ray(altitude_m, view, sun, azimuth);
+            for ray in ground.iter().map(from(2.0)).chain(high.iter().map(from(10e3))) {
+                let (found, expected) = (air.radiance(&ray), reference::radiance(&air, &ray, 60_000));
+                off.extend((0..3).map(|i| ((found[i] / expected[i] - 1.0).abs(), ray)));
+            }
+        }
+        off.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let over = off.iter().filter(|(off, _)| *off > 0.05).count() as f64 / off.len() as f64;
+        let (most, ray) = off[off.len() - 1];
+        assert!(over <= share && most < worst, "{file}: {over} are over 5%, worst {most} at {ray:?}");
     }
 }
 

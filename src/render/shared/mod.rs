@@ -86,6 +86,9 @@ pub(crate) fn text() -> String {
         // LUTs
         ("OPTICAL_DEPTH_SIZE", &size(OPTICAL_DEPTH_SIZE)),
         ("MULTISCATTER_SIZE", &size(MULTISCATTER_SIZE)),
+        ("SEEN_TURNS", &SEEN_TILES[0]),
+        ("SEEN_RINGS", &SEEN_TILES[1]),
+        ("GLOW_TILES", &size(GLOW_TILES)),
         ("IRRADIANCE_SIZE", &size(IRRADIANCE_SIZE)),
         ("SKY_SIZE", &size(SKY_SIZE)),
         ("CLOUD_MAP_SIDE", &f64::from(CLOUD_MAP_SIDE)),

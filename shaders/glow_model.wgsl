@@ -1,0 +1,54 @@
+// What the passes of light that air scatters again have in common: directions of the light that a point sees, in tiles
+// of a texture. Each tile has the columns and rows of the multiple-scattering LUT. As in src/atmosphere/glow.rs.
+#include "gather.wgsl"
+
+const SEEN_UPPER: u32 = 6u;
+// Gauss-Legendre nodes between the horizon (0) and zenith or nadir (1), with their weights
+const SEEN_NODES: array<vec2f, 8> = array<vec2f, 8>(
+    vec2f(0.0337652429, 0.0856622462),
+    vec2f(0.1693953068, 0.1803807865),
+    vec2f(0.3806904070, 0.2339569673),
+    vec2f(0.6193095930, 0.2339569673),
+    vec2f(0.8306046932, 0.1803807865),
+    vec2f(0.9662347571, 0.0856622462),
+    vec2f(0.2113248654, 0.5),
+    vec2f(0.7886751346, 0.5),
+);
+
+// Cosine of the sun to the zenith, negated, from which on moments replace the sums: in the planet's shadow, light comes
+// from a part of the sky that is narrower than the directions are apart. Over the second figure, both are mixed.
+const SHADOW: f32 = 0.05;
+const SHADOW_BLEND: f32 = 0.03;
+
+fn share_of_moments(sun_mu: f32) -> f32 { return saturate1((-SHADOW - sun_mu) / SHADOW_BLEND); }
+
+struct SeenRing {
+    // Cosine to the zenith, and share of all directions
+    mu: f32,
+    share: f32,
+    hits: bool,
+}
+
+fn seen_ring(h: f32, number: u32) -> SeenRing {
+    let horizon = horizon_cosine(h);
+    let hits = number >= SEEN_UPPER;
+    let span = select(1.0 - horizon, -1.0 - horizon, hits);
+    let node = SEEN_NODES[number];
+    return SeenRing(horizon + span * node.x, 0.5 * abs(span) * node.y, hits);
+}
+
+// Cosine of the azimuth from the sun of a direction.
+fn seen_turn(number: u32) -> f32 { return cos(PI * (f32(number) + 0.5) / f32(SEEN_TURNS)); }
+
+fn flat_of(mu: f32) -> f32 { return sqrt(max(0.0, 1.0 - mu * mu)); }
+
+// Pixel of the multiple-scattering LUT of a pixel of a texture of tiles, and the number of its tile.
+struct Tiled {
+    pixel: vec4f,
+    tile: vec2u,
+}
+
+fn tiled(pixel: vec4f) -> Tiled {
+    let tile = floor(pixel.xy / MULTISCATTER_SIZE);
+    return Tiled(vec4f(pixel.xy - tile * MULTISCATTER_SIZE, 0.0, 1.0), vec2u(tile));
+}

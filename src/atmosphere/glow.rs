@@ -1,0 +1,187 @@
+//! Light that air scatters for a second time or more, by altitude, sun elevation and direction, as a LUT.
+//!
+//! The few moments of [`Light`](super::multiscatter::Light) suffice for light that is scattered on, but not for what
+//! dust scatters to the eye: light scattered once comes both from around the sun and from along the horizon, and dust
+//! keeps that pattern. So the last two scatterings are sums over directions with the exact phase functions: the light
+//! that a point sees is gathered from all around (as in the final gathering of photon maps: Jensen, Global
+//! illumination using photon maps, 1996), and scattered once more. Only light of the third order and more is by
+//! moments. Directions and steps are those of the shaders, in f64.
+
+use super::line::{Line, horizon_mu};
+use super::medium::{Medium, rayleigh_phase};
+use super::multiscatter::{COLUMNS, Direction, MultiscatterLut, ROWS, flat, march, place, point_at};
+use super::sunlit::SunlitAir;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Nodes along the zenith angle of the direction of scattering, and along its azimuth from the sun, as in the shaders.
+const VIEWS: usize = 9;
+const TURNS: usize = 5;
+/// Directions of the light that a point sees: Gauss-Legendre nodes between the horizon (0) and zenith or nadir (1) with
+/// their weights, and azimuths from the sun. The other half of the sphere is the mirror image.
+const UPPER: [(f64, f64); 6] = [
+    (0.033_765_242_898_424, 0.085_662_246_189_585),
+    (0.169_395_306_766_868, 0.180_380_786_524_069),
+    (0.380_690_406_958_402, 0.233_956_967_286_346),
+    (0.619_309_593_041_598, 0.233_956_967_286_346),
+    (0.830_604_693_233_132, 0.180_380_786_524_069),
+    (0.966_234_757_101_576, 0.085_662_246_189_585),
+];
+const LOWER: [(f64, f64); 2] = [(0.211_324_865_405_187, 0.5), (0.788_675_134_594_813, 0.5)];
+const SEEN_TURNS: usize = 6;
+/// Steps along each direction.
+const STEPS: u32 = 5;
+/// Cosine of the sun's zenith angle, negated, from which on moments replace the sums: in the planet's shadow, light
+/// comes from a part of the sky that is narrower than the directions are apart. Over the second figure, both are mixed.
+const SHADOW: f64 = 0.05;
+const SHADOW_BLEND: f64 = 0.03;
+
+/// Light that air scatters for a second time or more. Values are square roots of radiance per scattering coefficient.
+#[derive(Clone, Debug)]
+pub(super) struct GlowLut {
+    top: f64,
+    /// By altitude and sun, as in [`MultiscatterLut`]; each has nodes by zenith angle and azimuth.
+    texels: Vec<[[DVec3; TURNS]; VIEWS]>,
+}
+
+/// Light from a direction that a point sees.
+struct Seen {
+    mu: f64,
+    turn: f64,
+    /// Share of all directions.
+    share: f64,
+    light: DVec3,
+}
+
+impl GlowLut {
+    pub(super) fn new(lit: &SunlitAir, lut: &MultiscatterLut) -> Self {
+        let texel = |i: usize| {
+            let (altitude, sun_mu) = point_at(i, lit.medium.top);
+            let shadow = ((-SHADOW - sun_mu) / SHADOW_BLEND).clamp(0.0, 1.0);
+            let seen = if shadow < 1.0 { seen(lit, lut, altitude, sun_mu) } else { Vec::new() };
+            let shares = Shares::new(&lit.medium, altitude);
+            std::array::from_fn(|view| {
+                std::array::from_fn(|turn| {
+                    let (mu, turn) = (view_mu(view as f64 / (VIEWS - 1) as f64), cosine_of_turn(turn));
+                    let mut light = DVec3::ZERO;
+                    if shadow < 1.0 {
+                        light += shares.rescattered(&lit.medium, &seen, mu, turn) * (1.0 - shadow);
+                    }
+                    if shadow > 0.0 {
+                        let cosine = mu * sun_mu + flat(mu) * flat(sun_mu) * turn;
+                        light += by_moments(lit, lut, (altitude, sun_mu), &shares, Direction { mu, cosine }) * shadow;
+                    }
+                    light.map(f64::sqrt)
+                })
+            })
+        };
+        Self { top: lit.medium.top, texels: (0..COLUMNS * ROWS).into_par_iter().map(texel).collect() }
+    }
+
+    /// Radiance that air scatters into a direction, per scattering coefficient. `sun_mu`: cosine of the sun's zenith
+    /// angle.
+    pub(super) fn at(&self, altitude: f64, sun_mu: f64, to: Direction) -> DVec3 {
+        let (x, y) = place(altitude / self.top, sun_mu);
+        let across = flat(to.mu) * flat(sun_mu);
+        let turn = ((to.cosine - to.mu * sun_mu) / across.max(1e-6)).clamp(-1.0, 1.0);
+        let view = unit_of_view(to.mu) * (VIEWS - 1) as f64;
+        let turn = (0.5 - 0.5 * turn).sqrt() * (TURNS - 1) as f64;
+        let (i, j) = ((view as usize).min(VIEWS - 2), (turn as usize).min(TURNS - 2));
+        let (u, v) = (view - i as f64, turn - j as f64);
+        let root = super::depth::bilinear(x, y, COLUMNS, ROWS, |texel| {
+            let nodes = &self.texels[texel];
+            nodes[i][j].lerp(nodes[i + 1][j], u).lerp(nodes[i][j + 1].lerp(nodes[i + 1][j + 1], u), v)
+        });
+        root * root
+    }
+}
+
+/// Where a cosine to the zenith lies between nadir (0) and zenith (1): nearly even in the angle.
+fn unit_of_view(mu: f64) -> f64 {
+    0.5 + (0.5 - 0.5 * (1.0 - mu.abs()).max(0.0).sqrt()).copysign(mu)
+}
+
+/// The inverse of [`unit_of_view`].
+fn view_mu(unit: f64) -> f64 {
+    let from_pole = 1.0 - (2.0 * unit - 1.0).abs();
+    (1.0 - from_pole * from_pole).copysign(unit - 0.5)
+}
+
+/// Cosine of the azimuth of a node: nodes are even in the sine of half the azimuth, densest towards the sun.
+fn cosine_of_turn(node: usize) -> f64 {
+    let sine = node as f64 / (TURNS - 1) as f64;
+    1.0 - 2.0 * sine * sine
+}
+
+/// The light that a point sees from all around.
+fn seen(lit: &SunlitAir, lut: &MultiscatterLut, altitude: f64, sun_mu: f64) -> Vec<Seen> {
+    let horizon = horizon_mu(lit.radius, altitude);
+    let side = |span: f64| move |&(x, weight): &(f64, f64)| (horizon + span * x, weight * 0.5 * span.abs());
+    let rings = UPPER.iter().map(side(1.0 - horizon)).chain(LOWER.iter().map(side(-1.0 - horizon)));
+    let turns = (0..SEEN_TURNS).map(|i| (PI * (i as f64 + 0.5) / SEEN_TURNS as f64).cos());
+    rings
+        .flat_map(|(mu, share)| turns.clone().map(move |turn| (mu, turn, share / SEEN_TURNS as f64)))
+        .map(|(mu, turn, share)| Seen { mu, turn, share, light: seen_from(lit, lut, (altitude, sun_mu), mu, turn) })
+        .collect()
+}
+
+/// The light that a point sees from one direction.
+fn seen_from(lit: &SunlitAir, lut: &MultiscatterLut, at: (f64, f64), mu: f64, turn: f64) -> DVec3 {
+    let (altitude, sun_mu) = at;
+    let (radius, haze) = (lit.radius, lit.medium.haze());
+    let line = Line { radius, altitude, mu };
+    let cosine = mu * sun_mu + flat(mu) * flat(sun_mu) * turn;
+    let phases = (rayleigh_phase(cosine), lit.medium.mie_phase(cosine));
+    let sun_mu_at =
+        |t: f64, height: f64| (((radius + altitude) * sun_mu + t * cosine) / (radius + height)).clamp(-1.0, 1.0);
+    let mut light = DVec3::ZERO;
+    let through = march(&lit.medium, &line, STEPS, |t, height, air, inside| {
+        let sun_mu = sun_mu_at(t, height);
+        let mu = ((radius + altitude) * mu + t) / (radius + height);
+        // The forward peak of haze is part of the beam: scattered once more, it counts as scattered once.
+        let beam = lit.beam(height, sun_mu);
+        let more = lut.at(height, sun_mu).scattered(&haze, Direction { mu, cosine });
+        light += inside * (air.rayleigh * (beam * phases.0 + more.0) + air.mie * (beam * phases.1 + more.1));
+    });
+    light + through * line.ground().map_or(DVec3::ZERO, |t| lut.ground(lit, sun_mu_at(t, 0.0)))
+}
+
+/// Shares of molecules and haze in the scattering at an altitude.
+struct Shares {
+    rayleigh: DVec3,
+    mie: DVec3,
+}
+
+impl Shares {
+    fn new(medium: &Medium, altitude: f64) -> Self {
+        let air = medium.at(altitude);
+        let all = air.scattering().max(DVec3::splat(1e-300));
+        Self { rayleigh: air.rayleigh / all, mie: air.mie / all }
+    }
+
+    /// Light seen, scattered once more. The sum is divided by that over even light: directions are too far apart to
+    /// resolve a sharp phase function.
+    fn rescattered(&self, medium: &Medium, seen: &[Seen], mu: f64, turn: f64) -> DVec3 {
+        let (mut rayleigh, mut mie) = ((DVec3::ZERO, 0.0), (DVec3::ZERO, 0.0));
+        for from in seen {
+            let (along, across) = (mu * from.mu, flat(mu) * flat(from.mu));
+            // The direction and its mirror image.
+            for sine in [-1.0, 1.0] {
+                let cosine = along + across * (turn * from.turn + sine * flat(turn) * flat(from.turn));
+                let weights = (rayleigh_phase(cosine) * from.share, medium.mie_phase(cosine) * from.share);
+                rayleigh = (rayleigh.0 + from.light * weights.0, rayleigh.1 + weights.0);
+                mie = (mie.0 + from.light * weights.1, mie.1 + weights.1);
+            }
+        }
+        self.rayleigh * rayleigh.0 / rayleigh.1 + self.mie * mie.0 / mie.1
+    }
+}
+
+/// The same by moments, and what the peak of haze has added to the beam.
+fn by_moments(lit: &SunlitAir, lut: &MultiscatterLut, at: (f64, f64), shares: &Shares, to: Direction) -> DVec3 {
+    let more = lut.at(at.0, at.1).scattered(&lit.medium.haze(), to);
+    let peak = (lit.beam(at.0, at.1) - lit.sunlight(at.0, at.1)).max(DVec3::ZERO);
+    shares.rayleigh * (peak * rayleigh_phase(to.cosine) + more.0)
+        + shares.mie * (peak * lit.medium.mie_phase(to.cosine) + more.1)
+}
