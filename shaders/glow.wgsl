@@ -11,22 +11,26 @@
 // over even light: directions are too far apart to resolve a sharp phase function. `shares`: of molecules and haze in
 // all scattering are `by_rayleigh` and 1 - `by_rayleigh`.
 fn rescattered(pixel: vec2i, h: f32, by_rayleigh: vec3f, mu: f32, turn: f32) -> vec3f {
+    // Factors of the phase functions that do not depend on the direction cancel.
+    let g = body.mie_anisotropy;
+    let across = flat_of(mu);
+    let azimuth = vec2f(turn, flat_of(turn));
     var rayleigh = vec4f(0.0);
     var mie = vec4f(0.0);
     for (var i = 0u; i < SEEN_RINGS; i++) {
         let ring = seen_ring(h, i);
         let along = mu * ring.mu;
-        let across = flat_of(mu) * flat_of(ring.mu);
+        let both_across = across * flat_of(ring.mu);
         for (var k = 0u; k < SEEN_TURNS; k++) {
             let root = textureLoad(seen_lut, pixel + vec2i(vec2u(k, i)) * vec2i(MULTISCATTER_SIZE), 0).rgb;
-            let light = vec4f(root * root, 1.0);
-            let from_turn = seen_turn(k);
+            let light = vec4f(root * root, 1.0) * ring.share;
             // The direction and its mirror image
-            let same = turn * from_turn;
-            let other = flat_of(turn) * flat_of(from_turn);
-            let cosines = along + across * vec2f(same - other, same + other);
-            rayleigh += light * (ring.share * (rayleigh_phase(cosines.x) + rayleigh_phase(cosines.y)));
-            mie += light * (ring.share * (mie_phase(cosines.x) + mie_phase(cosines.y)));
+            let turns = azimuth * SEEN_AZIMUTHS[k];
+            let cosines = along + both_across * vec2f(turns.x - turns.y, turns.x + turns.y);
+            let even = 1.0 + cosines * cosines;
+            let base = inverseSqrt(max(1.0 + g * g - 2.0 * g * cosines, vec2f(1e-6)));
+            rayleigh += light * (even.x + even.y);
+            mie += light * dot(even, base * base * base);
         }
     }
     return mix(mie.rgb / mie.a, rayleigh.rgb / rayleigh.a, by_rayleigh) / MULTISCATTER_SCALE;

@@ -37,8 +37,15 @@ fn seen_ring(h: f32, number: u32) -> SeenRing {
     return SeenRing(horizon + span * node.x, 0.5 * abs(span) * node.y, hits);
 }
 
-// Cosine of the azimuth from the sun of a direction.
-fn seen_turn(number: u32) -> f32 { return cos(PI * (f32(number) + 0.5) / f32(SEEN_TURNS)); }
+// Cosines and sines of the azimuths from the sun of the directions: the middles of sixths of half a turn
+const SEEN_AZIMUTHS: array<vec2f, 6> = array<vec2f, 6>(
+    vec2f(0.9659258263, 0.2588190451),
+    vec2f(0.7071067812, 0.7071067812),
+    vec2f(0.2588190451, 0.9659258263),
+    vec2f(-0.2588190451, 0.9659258263),
+    vec2f(-0.7071067812, 0.7071067812),
+    vec2f(-0.9659258263, 0.2588190451),
+);
 
 fn flat_of(mu: f32) -> f32 { return sqrt(max(0.0, 1.0 - mu * mu)); }
 

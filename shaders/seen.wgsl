@@ -15,7 +15,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let radius = body.radius_km;
     let top = body.air_height_km;
     let ring = seen_ring(at.x, place.tile.y);
-    let cosine = ring.mu * at.y + flat_of(ring.mu) * flat_of(at.y) * seen_turn(place.tile.x);
+    let cosine = ring.mu * at.y + flat_of(ring.mu) * flat_of(at.y) * SEEN_AZIMUTHS[place.tile.x].x;
     let rayleigh = rayleigh_phase(cosine);
     let mie = mie_phase(cosine);
     let moments = haze_moments();
