@@ -1,5 +1,5 @@
-//! Handles of the selected edit: its points, and the square on its ring that draws its radius and turns a picture. With Ctrl a point moves
-//! the whole edit, with Shift it turns and stretches it around its middle.
+//! Handles of the selected edit: its points, and the square on its ring that draws its radius and turns a picture. With
+//! Ctrl a point moves the whole edit, with Shift it turns and stretches it around its middle.
 
 use super::ring::Ground;
 use super::sculpt::tidy_km;

@@ -1,8 +1,8 @@
 //! Number fields that say why they refuse a text.
 //!
 //! egui's own fields clamp a number to the range, and silently restore the old number if they cannot read the text.
-//! These fields refuse both, and show the reason below the field for some seconds. After Enter the refused text stays, to
-//! be corrected.
+//! These fields refuse both, and show the reason below the field for some seconds. After Enter the refused text stays,
+//! to be corrected.
 
 use super::number::{format_digits, read_number, suffix};
 use super::select_all;

@@ -223,8 +223,8 @@ params! {
 }
 
 params! {
-    /// `h + gullies * w`: crests keep their height. Gullies run down the slopes of the ground around, are as deep as it is
-    /// steep, and end where it is level.
+    /// `h + gullies * w`: crests keep their height. Gullies run down the slopes of the ground around, are as deep as it
+    /// is steep, and end where it is level.
     pub struct Hydraulic {
         /// Distance between the largest gullies, as a share of the radius.
         spacing: f64 = 0.15, "Spacing", Unit::None, log(0.02, 0.5), Stage::Height;

@@ -54,7 +54,8 @@ impl Size {
 pub(super) struct Canvas<T> {
     size: Size,
     extent: PictureExtent,
-    /// Pixels along a square of a cube picture, or in a row of another, and the face of each square; None for a square without a face.
+    /// Pixels along a square of a cube picture, or in a row of another, and the face of each square; None for a square
+    /// without a face.
     side: usize,
     faces: Vec<Vec<Option<usize>>>,
     texels: Vec<T>,

@@ -81,8 +81,8 @@ impl Picture {
         }
     }
 
-    /// The finest level that points of this spacing in radians can show; level 0 is the picture itself. Of a picture of a
-    /// place the spacing counts as its positions do.
+    /// The finest level that points of this spacing in radians can show; level 0 is the picture itself. Of a picture of
+    /// a place the spacing counts as its positions do.
     pub fn level_for(&self, spacing_rad: f64) -> usize {
         match &self.texels {
             Texels::Grey16(raster) => raster.level_for(spacing_rad),

@@ -62,8 +62,8 @@ pub(crate) const SHOWN_BYTES: u64 = 4 * 4;
 /// Size of each LUT of the air, texels.
 pub(crate) const OPTICAL_DEPTH_SIZE: [u32; 2] = [256, 64];
 pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 16];
-/// Tiles of the multiple-scattering LUT's size in the LUTs by direction. Light that a point sees: azimuths, and rings of
-/// equal elevation; light that air scatters again: cosines to the zenith, and azimuths.
+/// Tiles of the multiple-scattering LUT's size in the LUTs by direction. Light that a point sees: azimuths, and rings
+/// of equal elevation; light that air scatters again: cosines to the zenith, and azimuths.
 pub(crate) const SEEN_TILES: [u32; 2] = [6, 8];
 pub(crate) const GLOW_TILES: [u32; 2] = [9, 5];
 pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];

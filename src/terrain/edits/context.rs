@@ -1,5 +1,5 @@
-//! What edits that read the ground depend on besides their own numbers: the edits before them that are near. It is part of
-//! their content, so that tiles are built again when one of those changes.
+//! What edits that read the ground depend on besides their own numbers: the edits before them that are near. It is part
+//! of their content, so that tiles are built again when one of those changes.
 
 use super::compiled::CompiledEdit;
 use super::index::{Hash, Index, Piece};
@@ -8,8 +8,8 @@ use super::reading::Reader;
 use super::roster::{Changes, Roster, slot_of};
 use std::sync::Arc;
 
-/// Finds anew the content of the edits that read the ground where something changed. Returns these as changes. `index`: that of
-/// the roster after `changes`.
+/// Finds anew the content of the edits that read the ground where something changed. Returns these as changes.
+/// `index`: that of the roster after `changes`.
 pub(super) fn refresh(roster: &mut Roster, index: &Index, changes: &Changes) -> Changes {
     let reading: Vec<(u32, Arc<CompiledEdit>)> = roster.reading().map(|(slot, edit)| (slot, edit.clone())).collect();
     let mut refreshed = Changes::default();

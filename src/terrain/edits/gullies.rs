@@ -2,9 +2,9 @@
 //! Clay John (2020) and Rune Skovbo Johansen (2025). The landform `gullies` does the same on noise.
 //!
 //! In each of the jittered cells around a point stands a wave whose crests follow the slope of smooth ground at the
-//! middle of the cell. The waves sum to a phasor; the cosine of its phase is the profile across the gullies. They are as
-//! deep as that ground is steep, so they end where it is level. Each finer octave follows the ground with the coarser
-//! gullies in it, so that gullies branch, and leaves the crests and beds of those free.
+//! middle of the cell. The waves sum to a phasor; the cosine of its phase is the profile across the gullies. They are
+//! as deep as that ground is steep, so they end where it is level. Each finer octave follows the ground with the
+//! coarser gullies in it, so that gullies branch, and leaves the crests and beds of those free.
 
 use super::Ground;
 use super::memory::{Known, Node, Nodes};
