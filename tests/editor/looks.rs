@@ -65,7 +65,9 @@ fn the_variations() {
 fn a_system() {
     let mut harness = app::open_without_planet([800.0, 500.0]);
     harness.state_mut().push(Action::System(SystemAction::Open(0)));
-    harness.run_steps(10);
+    // The presets are read on another thread, and the camera flies to the first planet.
+    app::until(&mut harness, "the first planet", |harness| app::planet(harness).name == "Maren");
+    harness.run_steps(240);
     is_same(&mut harness, "system");
 }
 
