@@ -4,7 +4,7 @@ use crate::app::{self, Editor, click, send, until};
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};
-use tellus::bake::{Format, Map, Region};
+use tellus::bake::{Format, Map, Quadtree, Region};
 use tellus::editor::command::{Action, BakeAction, Command};
 use tellus::editor::state::bake_settings::{BakeSettings, Form, MeshChoice, Product, TilesChoice};
 
@@ -58,6 +58,30 @@ fn a_cube_has_six_faces_and_a_region_lies_where_it_was_set() {
     click(&mut harness, "Here");
     let region = harness.state().bake_settings().region;
     assert_eq!((region.lat_deg, region.lon_deg), looked_at(&harness));
+}
+
+#[test]
+fn a_landscape_and_a_quadtree_are_tiles() {
+    let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    let mut harness = open(folders.iter().map(|folder| Some(folder.path().to_owned())).collect());
+    set(&mut harness, BakeSettings { maps: vec![Map::Height], ..BakeSettings::default() });
+    click(&mut harness, "Landscape");
+    assert_eq!(harness.state().bake_settings().size, 1009);
+    assert!(harness.query_by_label("Tiles of landscape").is_some() && harness.query_by_label("Here").is_some());
+    let now = harness.state().bake_settings().clone();
+    set(&mut harness, BakeSettings { size: 9, ..now });
+    click(&mut harness, "Bake into folder…");
+    until(&mut harness, "the tiles are there", |harness| harness.query_by_label_contains("Saved 4 maps").is_some());
+    assert!(names(folders[0].path()).contains(&"height_x1_y1.png".to_owned()), "{:?}", names(folders[0].path()));
+
+    click(&mut harness, "Quadtree");
+    assert_eq!(harness.state().bake_settings().size, 256);
+    let now = harness.state().bake_settings().clone();
+    let quadtree = Quadtree { levels: 1, apron: 1 };
+    set(&mut harness, BakeSettings { size: 16, quadtree, ..now });
+    assert!(harness.query_by_label_contains("30 tiles of 18 × 18").is_some());
+    click(&mut harness, "Bake into folder…");
+    until(&mut harness, "all levels are there", |harness| harness.query_by_label_contains("Saved 30 maps").is_some());
 }
 
 fn looked_at(harness: &Editor) -> (f64, f64) {

@@ -1,7 +1,7 @@
 //! What the user wants to bake: maps, a mesh or 3D tiles.
 
 use crate::bake::mesh::{Area, MeshBake, MeshFormat, MeshWater, Tileset};
-use crate::bake::{Bake, Detail, Format, Map, Projection, Region};
+use crate::bake::{Bake, Detail, Format, Landscape, Map, Projection, Quadtree, Region};
 use crate::planet::Planet;
 use crate::terrain::Terrain;
 use std::sync::Arc;
@@ -36,14 +36,28 @@ pub enum Form {
     Cube,
     /// A square about a place.
     Region,
+    /// The same square in tiles that share their borders.
+    Landscape,
+    /// The tiles of a quadtree of the globe.
+    Quadtree,
 }
 
 impl Form {
     /// All of them, with the name that a person reads and what it is for.
-    pub const ALL: [(Form, &'static str, &'static str); 3] = [
+    pub const ALL: [(Form, &'static str, &'static str); 5] = [
         (Form::Globe, "Globe", "Equirectangular: the whole globe in one picture, twice as wide as high"),
         (Form::Cube, "Cube", "Six faces of a cube texture"),
         (Form::Region, "Region", "A square about a place, as terrain engines take it"),
+        (
+            Form::Landscape,
+            "Landscape",
+            "The square in tiles that share the vertices of their borders, as Unreal imports them",
+        ),
+        (
+            Form::Quadtree,
+            "Quadtree",
+            "Tiles of the globe on all levels up to the finest, with pixels of their neighbours",
+        ),
     ];
 }
 
@@ -58,7 +72,11 @@ pub struct BakeSettings {
     pub previewed: Map,
     /// How pixels of maps lie on the globe.
     pub form: Form,
-    /// The square of maps with [`Form::Region`], of a mesh and of the finest tiles.
+    /// Tiles along each side with [`Form::Landscape`].
+    pub landscape_tiles: u32,
+    /// The tiles with [`Form::Quadtree`].
+    pub quadtree: Quadtree,
+    /// The square of maps with [`Form::Region`] and [`Form::Landscape`], of a mesh and of the finest tiles.
     pub region: Region,
     /// Width of a picture in pixels.
     pub size: u32,
@@ -121,6 +139,8 @@ impl Default for BakeSettings {
             maps: vec![Map::Height, Map::Normal, Map::Albedo],
             previewed: Map::Height,
             form: Form::Globe,
+            landscape_tiles: 2,
+            quadtree: Quadtree { levels: 3, apron: 1 },
             region: Region { lat_deg: 0.0, lon_deg: 0.0, side_km: 100.0 },
             size: 4096,
             format: Format::Png16,
@@ -156,6 +176,8 @@ impl BakeSettings {
             Form::Globe => Projection::Equirect,
             Form::Cube => Projection::Cube,
             Form::Region => Projection::Region(self.region),
+            Form::Landscape => Projection::Landscape(Landscape { region: self.region, tiles: self.landscape_tiles }),
+            Form::Quadtree => Projection::Quadtree(self.quadtree),
         }
     }
 
@@ -165,6 +187,8 @@ impl BakeSettings {
             Form::Globe => ([self.size, self.size / 2], 1),
             Form::Cube => ([self.size; 2], 6),
             Form::Region => ([self.size; 2], 1),
+            Form::Landscape => ([self.size; 2], u64::from(self.landscape_tiles) * u64::from(self.landscape_tiles)),
+            Form::Quadtree => ([self.size + 2 * self.quadtree.apron; 2], self.quadtree.tiles()),
         }
     }
 
@@ -213,7 +237,7 @@ impl BakeSettings {
     /// Whether the region matters.
     pub fn uses_region(&self) -> bool {
         match self.product {
-            Product::Maps => self.form == Form::Region,
+            Product::Maps => matches!(self.form, Form::Region | Form::Landscape),
             Product::Mesh => self.mesh.of_region,
             Product::Tiles => self.tiles.in_region,
         }

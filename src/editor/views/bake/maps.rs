@@ -1,7 +1,7 @@
 //! The choices of maps.
 
 use super::rows;
-use crate::bake::{Detail, Format, MAX_SIZE, Map};
+use crate::bake::{Detail, Format, Landscape, MAX_SIZE, Map, Quadtree};
 use crate::editor::state::State;
 use crate::editor::state::bake_settings::{BakeSettings, Form};
 use crate::editor::widgets::typed::{Allowed, plain_field};
@@ -9,7 +9,9 @@ use crate::planet::Planet;
 use eframe::egui;
 
 /// Sizes to choose from.
-const SIZES: [u32; 6] = [1024, 2048, 4096, 8192, 16_384, MAX_SIZE / 2];
+const SIZES: [u32; 9] = [256, 1009, 2017, 1024, 2048, 4096, 8192, 16_384, MAX_SIZE / 2];
+/// Finest level of a quadtree that is offered: 32,766 tiles of a map.
+const MOST_LEVELS: u32 = 6;
 /// Pixels from which a bake with all detail of a structure takes hours.
 const LARGE: u64 = 1 << 20;
 
@@ -64,13 +66,22 @@ pub(super) fn form(ui: &mut egui::Ui, settings: &mut BakeSettings, state: &State
     ui.label("Form");
     ui.horizontal(|ui| {
         for (form, name, told) in Form::ALL {
-            ui.selectable_value(&mut settings.form, form, name).on_hover_text(told);
+            let chosen = ui.selectable_value(&mut settings.form, form, name).on_hover_text(told);
+            if chosen.clicked() {
+                // The usual width of what was chosen.
+                settings.size = match form {
+                    Form::Landscape => Landscape::SIZE,
+                    Form::Quadtree => Quadtree::SIZE,
+                    _ => BakeSettings::default().size,
+                };
+            }
         }
     });
     ui.end_row();
-    if settings.form == Form::Region {
+    if settings.uses_region() {
         rows::region(ui, &mut settings.region, state);
     }
+    pieces(ui, settings);
     ui.label("Size").on_hover_text("Width of a picture");
     ui.horizontal(|ui| {
         egui::ComboBox::from_id_salt("size").selected_text(format!("{} px", settings.size)).show_ui(ui, |ui| {
@@ -95,6 +106,33 @@ pub(super) fn form(ui: &mut egui::Ui, settings: &mut BakeSettings, state: &State
     ui.end_row();
 }
 
+/// The tiles of a landscape or of a quadtree.
+fn pieces(ui: &mut egui::Ui, settings: &mut BakeSettings) {
+    let mut row = |label: &str, told: &str, value: u32, most: u32, name: &str| {
+        ui.label(label).on_hover_text(told);
+        let mut number = f64::from(value);
+        let least = if label == "Tiles" { 1.0 } else { 0.0 };
+        plain_field(ui, &mut number, 0.1, 0, Allowed::whole(least, f64::from(most))).accessible_name(name);
+        ui.end_row();
+        number as u32
+    };
+    match settings.form {
+        Form::Landscape => {
+            let most = (MAX_SIZE / settings.size.max(1)).max(1);
+            let tiles = row("Tiles", "Along each side", settings.landscape_tiles, most, "Tiles of landscape");
+            settings.landscape_tiles = tiles.clamp(1, most);
+        }
+        Form::Quadtree => {
+            let quadtree = &mut settings.quadtree;
+            let told = "The finest level has 2 to its power tiles along a side of each of six faces";
+            quadtree.levels = row("Levels", told, quadtree.levels.into(), MOST_LEVELS, "Levels of quadtree") as u8;
+            let told = "Pixels of the neighbours around each tile";
+            quadtree.apron = row("Apron", told, quadtree.apron, settings.size / 8, "Apron of quadtree");
+        }
+        _ => {}
+    }
+}
+
 /// The extent of the work.
 pub(super) fn tell(ui: &mut egui::Ui, settings: &BakeSettings, planet: &Planet) {
     let ([width, height], pictures) = settings.pictures();
@@ -102,9 +140,12 @@ pub(super) fn tell(ui: &mut egui::Ui, settings: &BakeSettings, planet: &Planet) 
     let channels: usize =
         settings.maps.iter().filter(|map| map.missing(planet).is_none()).map(|map| map.channels()).sum();
     let megabytes = (pixels * channels as u64 * settings.format.bytes_per_number()) as f64 / 1e6;
-    let count =
-        if pictures > 1 { format!("{pictures} faces of {width} × {height}") } else { format!("{width} × {height}") };
+    let count = match settings.form {
+        Form::Globe | Form::Region => format!("{width} × {height}"),
+        Form::Cube => format!("{pictures} faces of {width} × {height}"),
+        Form::Landscape | Form::Quadtree => format!("{pictures} tiles of {width} × {height}"),
+    };
     ui.weak(format!("{count} px, up to {megabytes:.0} MB"));
     let is_slow = planet.structure.is_some() && settings.detail == Detail::All;
-    rows::slow(ui, is_slow && settings.form != Form::Region && pixels > LARGE);
+    rows::slow(ui, is_slow && !settings.uses_region() && pixels > LARGE);
 }

@@ -95,8 +95,8 @@ impl BakeWindow {
     fn preview(&mut self, ui: &mut egui::Ui, state: &State) {
         let width = ui.available_width();
         let aspect = match state.bake.as_shown().form {
-            Form::Globe | Form::Region => 0.5,
-            Form::Cube => 1.0 / 6.0,
+            Form::Globe | Form::Region | Form::Landscape => 0.5,
+            Form::Cube | Form::Quadtree => 1.0 / 6.0,
         };
         let (rect, area) = ui.allocate_exact_size(egui::vec2(width, width * aspect), egui::Sense::hover());
         ui.painter().rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
