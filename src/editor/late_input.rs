@@ -1,12 +1,12 @@
 //! Input that waits for a later frame, so that slow frames do what quick ones do.
 //!
-//! - Keys in the same frame as a click, or right after it, belong to what the click opens. The field takes the focus at
-//!   the end of the frame of the click, and shows its text in the next one: until then the digits would be shortcuts.
+//! - Keys in the same frame as a click or Tab, or right after it, belong to the field that gets the focus. It takes the
+//!   focus at the end of that frame, and shows its text in the next one: until then the digits would be shortcuts.
 //! - egui looks at the place of the pointer at the end of a frame alone. A press counts where it was made only if the
 //!   pointer is still there, and a drag that begins and ends in one frame is none. So motion away from a press waits
 //!   for the next frame, and a release after motion waits as well.
 
-use eframe::egui::{Event, Modifiers, PointerButton, Pos2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
 
 /// Frames from a click until the field under it takes text.
 const FRAMES: u8 = 2;
@@ -82,11 +82,11 @@ impl Frame {
     }
 }
 
-/// Whether an event may give a field the focus: a click, or a chord that opens a window.
+/// Whether an event may give a field the focus: a click, Tab, or a chord that opens a window.
 fn opens_field(event: &Event) -> bool {
     match event {
         Event::PointerButton { button, pressed, .. } => *button == PointerButton::Primary && !pressed,
-        Event::Key { pressed, modifiers, .. } => *pressed && is_chord(*modifiers),
+        Event::Key { key, pressed, modifiers, .. } => *pressed && (*key == Key::Tab || is_chord(*modifiers)),
         _ => false,
     }
 }
@@ -149,6 +149,20 @@ mod tests {
         let mut events = vec![key(Key::G, Modifiers::COMMAND | Modifiers::CTRL), Event::Text("45".to_owned())];
         assert!(late.admit(&mut events), "the window opens first");
         assert_eq!(events.len(), 1);
+    }
+
+    #[test]
+    fn what_is_typed_after_tab_waits_for_the_next_field() {
+        let mut late = LateInput::default();
+        let [five, six] = ["5", "6"].map(|text| Event::Text(text.to_owned()));
+        let tab = key(Key::Tab, Modifiers::NONE);
+        let mut events = vec![five.clone(), tab.clone(), six.clone()];
+        assert!(late.admit(&mut events));
+        assert_eq!(events, [five, tab]);
+        events.clear();
+        assert!(late.admit(&mut events) && events.is_empty());
+        assert!(!late.admit(&mut events));
+        assert_eq!(events, [six]);
     }
 
     fn frames(late: &mut LateInput, events: Vec<Event>) -> Vec<Vec<Event>> {

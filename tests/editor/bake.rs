@@ -74,6 +74,8 @@ fn a_landscape_and_a_quadtree_are_tiles() {
     until(&mut harness, "the tiles are there", |harness| harness.query_by_label_contains("Saved 4 maps").is_some());
     assert!(names(folders[0].path()).contains(&"height_x1_y1.png".to_owned()), "{:?}", names(folders[0].path()));
 
+    let now = harness.state().bake_settings().clone();
+    set(&mut harness, BakeSettings { size: 1009, ..now });
     click(&mut harness, "Quadtree");
     assert_eq!(harness.state().bake_settings().size, 256);
     let now = harness.state().bake_settings().clone();

@@ -152,7 +152,8 @@ impl PictureFile {
     }
 
     /// Takes over pixels from another reference to the same file, if one has them.
-    pub fn share<'a>(&mut self, others: impl Iterator<Item = &'a PictureFile>) {
+    #[cfg(feature = "editor")]
+    pub(crate) fn share<'a>(&mut self, others: impl Iterator<Item = &'a PictureFile>) {
         let place = self.location();
         let loaded = others.filter_map(PictureFile::current);
         if let Some(loaded) = loaded.filter(|(key, _)| Some(&key.file) == place.as_ref()).last() {

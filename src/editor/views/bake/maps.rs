@@ -7,9 +7,10 @@ use crate::editor::state::bake_settings::{BakeSettings, Form};
 use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::planet::Planet;
 use eframe::egui;
+use std::ops::RangeInclusive;
 
 /// Sizes to choose from.
-const SIZES: [u32; 9] = [256, 1009, 2017, 1024, 2048, 4096, 8192, 16_384, MAX_SIZE / 2];
+const SIZES: [u32; 9] = [256, 1009, 1024, 2017, 2048, 4096, 8192, 16_384, MAX_SIZE / 2];
 /// Finest level of a quadtree that is offered: 32,766 tiles of a map.
 const MOST_LEVELS: u32 = 6;
 /// Pixels from which a bake with all detail of a structure takes hours.
@@ -66,14 +67,11 @@ pub(super) fn form(ui: &mut egui::Ui, settings: &mut BakeSettings, state: &State
     ui.label("Form");
     ui.horizontal(|ui| {
         for (form, name, told) in Form::ALL {
-            let chosen = ui.selectable_value(&mut settings.form, form, name).on_hover_text(told);
-            if chosen.clicked() {
-                // The usual width of what was chosen.
-                settings.size = match form {
-                    Form::Landscape => Landscape::SIZE,
-                    Form::Quadtree => Quadtree::SIZE,
-                    _ => BakeSettings::default().size,
-                };
+            let before = usual_size(settings.form);
+            ui.selectable_value(&mut settings.form, form, name).on_hover_text(told);
+            // A width of one's own stays.
+            if settings.size == before {
+                settings.size = usual_size(settings.form);
             }
         }
     });
@@ -106,28 +104,37 @@ pub(super) fn form(ui: &mut egui::Ui, settings: &mut BakeSettings, state: &State
     ui.end_row();
 }
 
+/// Width of a picture, unless another one is chosen.
+fn usual_size(form: Form) -> u32 {
+    match form {
+        Form::Globe | Form::Cube | Form::Region => BakeSettings::default().size,
+        Form::Landscape => Landscape::SIZE,
+        Form::Quadtree => Quadtree::SIZE,
+    }
+}
+
 /// The tiles of a landscape or of a quadtree.
 fn pieces(ui: &mut egui::Ui, settings: &mut BakeSettings) {
-    let mut row = |label: &str, told: &str, value: u32, most: u32, name: &str| {
+    let mut row = |(label, name): (&str, &str), told: &str, value: u32, allowed: RangeInclusive<u32>| {
         ui.label(label).on_hover_text(told);
         let mut number = f64::from(value);
-        let least = if label == "Tiles" { 1.0 } else { 0.0 };
-        plain_field(ui, &mut number, 0.1, 0, Allowed::whole(least, f64::from(most))).accessible_name(name);
+        plain_field(ui, &mut number, 0.1, 0, Allowed::whole(*allowed.start(), *allowed.end())).accessible_name(name);
         ui.end_row();
         number as u32
     };
     match settings.form {
         Form::Landscape => {
             let most = (MAX_SIZE / settings.size.max(1)).max(1);
-            let tiles = row("Tiles", "Along each side", settings.landscape_tiles, most, "Tiles of landscape");
+            let tiles = row(("Tiles", "Tiles of landscape"), "Along each side", settings.landscape_tiles, 1..=most);
             settings.landscape_tiles = tiles.clamp(1, most);
         }
         Form::Quadtree => {
             let quadtree = &mut settings.quadtree;
             let told = "The finest level has 2 to its power tiles along a side of each of six faces";
-            quadtree.levels = row("Levels", told, quadtree.levels.into(), MOST_LEVELS, "Levels of quadtree") as u8;
+            quadtree.levels =
+                row(("Levels", "Levels of quadtree"), told, quadtree.levels.into(), 0..=MOST_LEVELS) as u8;
             let told = "Pixels of the neighbours around each tile";
-            quadtree.apron = row("Apron", told, quadtree.apron, settings.size / 8, "Apron of quadtree");
+            quadtree.apron = row(("Apron", "Apron of quadtree"), told, quadtree.apron, 0..=settings.size / 8);
         }
         _ => {}
     }
