@@ -144,7 +144,7 @@ impl Steps {
 }
 
 /// A component of sRGB.
-pub(super) fn srgb_byte(value: f64) -> u8 {
+pub(crate) fn srgb_byte(value: f64) -> u8 {
     (srgb_from_linear(value) * 255.0).round() as u8
 }
 

@@ -40,6 +40,8 @@ mod tests;
 
 pub use error::BakeError;
 pub use format::Format;
+#[cfg(feature = "editor")]
+pub(crate) use format::srgb_byte;
 pub use maps::Map;
 pub use pieces::{Landscape, Quadtree};
 pub use preview::Preview;

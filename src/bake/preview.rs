@@ -25,16 +25,26 @@ pub struct Preview {
 }
 
 impl Bake {
-    /// A picture of `map` of about `width` pixels, as it would be baked with [`Detail::Pixel`]. Draft world maps serve.
-    ///
-    /// The answer is None if `go_on` says no.
-    pub fn preview(&self, map: Map, width: u32, go_on: &(dyn Fn() -> bool + Sync)) -> Option<Preview> {
-        let planet = self.terrain.planet();
+    /// The values of a small map, row by row, with its width and height: what [`Bake::preview`] shows.
+    #[cfg(feature = "editor")]
+    pub(crate) fn map_values(
+        &self,
+        map: Map,
+        width: u32,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<(Vec<f32>, [u32; 2])> {
+        let (values, grid) = self.evaluated(map, width, go_on)?;
+        Some((values, [grid.width, grid.height]))
+    }
+
+    /// The values of a small map, picture by picture.
+    fn evaluated(&self, map: Map, width: u32, go_on: &(dyn Fn() -> bool + Sync)) -> Option<(Vec<f32>, Grid)> {
+        let radius_km = self.terrain.planet().radius_km;
         let projection = self.projection.whole();
-        let pictures = Grid::new(&projection, width, planet.radius_km).pictures();
+        let pictures = Grid::new(&projection, width, radius_km).pictures();
         let across = (width / pictures as u32).max(1);
         let small = Bake { maps: vec![map], projection, size: across, detail: Detail::Pixel, ..self.clone() };
-        let grid = Grid::new(&small.projection, across, planet.radius_km);
+        let grid = Grid::new(&small.projection, across, radius_km);
         let evaluator = Evaluator::new(&small);
         let strips = Strips::new(grid, vec![map], Key::of(&()), PathBuf::new());
         let parts: Option<Vec<Vec<f32>>> = (0..strips.count())
@@ -44,8 +54,17 @@ impl Bake {
                 go_on().then(|| values().swap_remove(0))
             })
             .collect();
-        let values: Vec<f32> = parts?.concat();
-        let (width, height) = (strips.grid.width as usize, strips.grid.height as usize);
+        Some((parts?.concat(), strips.grid))
+    }
+
+    /// A picture of `map` of about `width` pixels, as it would be baked with [`Detail::Pixel`]. Draft world maps serve.
+    ///
+    /// The answer is None if `go_on` says no.
+    pub fn preview(&self, map: Map, width: u32, go_on: &(dyn Fn() -> bool + Sync)) -> Option<Preview> {
+        let planet = self.terrain.planet();
+        let (values, grid) = self.evaluated(map, width, go_on)?;
+        let pictures = grid.pictures();
+        let (width, height) = (grid.width as usize, grid.height as usize);
         let (least, most) = values.iter().fold((f32::MAX, f32::MIN), |(least, most), v| (least.min(*v), most.max(*v)));
         let steps = Steps::new(Format::Png8, map, (least.into(), most.into()), None);
         let color = |values: &[f32]| match (map, map.range(), values) {

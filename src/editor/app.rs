@@ -9,6 +9,7 @@ use super::files::crash::{self, Doing};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
 use super::files::library::Library;
 use super::files::recent::Recent;
+use super::finder::place::Place;
 use super::gesture::Gesture;
 use super::handlers::{self, answers, baking, open_file, opening, shooting};
 use super::late_input::LateInput;
@@ -44,6 +45,7 @@ use super::views::{
 use super::widgets::curve_view::{self, CurveView};
 use super::widgets::row_view::LockView;
 use crate::planet::{Planet, shipped};
+use crate::sphere::LatLon;
 use crate::terrain::{CurveInputs, MapStore};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -337,6 +339,11 @@ impl EditorApp {
             }
             overlay::show(ui, state.viewport.rect(), state, commands);
         });
+        if let Some((lat_deg, lon_deg)) =
+            state.viewport.take_chosen().map(|dir| LatLon::from_direction(dir).to_degrees())
+        {
+            commands.push(Action::GoToPlace(Place { lat_deg, lon_deg, altitude_m: None }));
+        }
         if let Some(index) = state.viewport.take_touched_edit() {
             self.panels.sculpt.select(index);
         }

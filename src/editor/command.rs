@@ -9,6 +9,7 @@ use super::state::shooting::{PhotoSettings, Subject};
 use super::state::templates::Template;
 use super::state::variations::Wish;
 use super::viewport::camera::Mode;
+use super::viewport::panes::Layout;
 use super::viewport::travel::Arrival;
 use crate::lod::Quality;
 use crate::planet::param::ParamPath;
@@ -36,6 +37,8 @@ pub enum Command {
     Filter,
     ResetView,
     GoToPlace,
+    /// How many views of the planet there are.
+    Panes(Layout),
     /// Show or hide all that is known of the place under the pointer.
     Inspect,
     /// Hold the inspected place, or follow the pointer again.

@@ -2,11 +2,12 @@
 //!
 //! Menus, shortcuts and the list of keys are made from [`COMMANDS`]. A new command is a variant of [`Command`] and a
 //! row here, in `files`: files and what is written to them, in `planets`: planets to choose from and to compare with,
-//! or in `sculpt`: tools that change the ground.
+//! in `views`: what is shown of the planet, or in `sculpt`: tools that change the ground.
 
 mod files;
 mod planets;
 mod sculpt;
+mod views;
 
 use super::command::{Command, PanelAction};
 use super::handlers::{biome_table, bookmarks, window};
@@ -14,7 +15,6 @@ use super::state::State;
 use super::state::describe::lower_first;
 use super::viewport::camera::{Cameras, Mode};
 use crate::planet::notes::MAX_BOOKMARKS;
-use crate::render::DebugView;
 use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
@@ -164,7 +164,7 @@ fn ctrl_shift(key: Key) -> KeyboardShortcut {
 pub static COMMANDS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     let mut rows = files::rows();
     rows.extend(edit());
-    rows.extend(DebugView::ALL.map(debug_view));
+    rows.extend(views::rows());
     rows.extend(view_and_help());
     rows.extend(planets::rows());
     rows.extend(Mode::ALL.map(camera_mode));
@@ -397,33 +397,6 @@ fn camera_mode(mode: Mode) -> Row {
     .within(Menu::Camera, 0)
     .keys([plain(key)])
     .chosen_when(move |state| state.viewport.cameras().mode() == mode)
-}
-
-fn debug_view(view: DebugView) -> Row {
-    let (tooltip, key) = match view {
-        DebugView::Shaded => ("Show the planet in its light.", Some(Key::Num1)),
-        DebugView::Height => ("Show heights, from the lowest to the highest in the picture.", Some(Key::Num2)),
-        DebugView::Normal => ("Show the normals of the ground.", Some(Key::Num3)),
-        DebugView::Slope => ("Show the slope of the ground, up to 60°.", Some(Key::Num4)),
-        DebugView::Biome => ("Show the colours of the biomes alone.", Some(Key::Num5)),
-        DebugView::Temperature => ("Show the temperature, from -40 to 40 °C.", Some(Key::Num6)),
-        DebugView::Moisture => ("Show the moisture, from dry to wet.", Some(Key::Num7)),
-        DebugView::Lod => ("Show the level of each tile.", Some(Key::Num8)),
-        DebugView::TileBorders => ("Show the borders of the tiles.", Some(Key::Num9)),
-        DebugView::Wireframe => ("Show the edges of the triangles.", Some(Key::Num0)),
-        DebugView::Error => ("Show the vertex spacing: blue 1 pixel, green 4, yellow 16, red 64.", Some(Key::Minus)),
-        DebugView::Coverage => ("Show the ground white and the rest black.", Some(Key::Equals)),
-        DebugView::Albedo => ("Show the colour of the ground without light.", None),
-        DebugView::Plates => ("Show the plates of the structure. Darts point along their motion.", None),
-        DebugView::Rain => ("Show the rain of the structure. Darts point along the wind.", None),
-        DebugView::Rivers => ("Show the basins, rivers and lakes of the structure.", None),
-    };
-    Row::new(Command::Show(view), view.label(), tooltip, move |state, _| state.viewport.settings.debug_view = view)
-        .within(Menu::View, 0)
-        .keys(key.map(plain).into_iter().collect::<Vec<_>>())
-        .chosen_when(move |state| state.viewport.settings.debug_view == view)
-        .enabled_when(move |state| !view.needs_structure() || state.document.valid_planet().structure.is_some())
-        .yielding_to_text()
 }
 
 /// The row of a command.

@@ -4,13 +4,14 @@
 //! The fields of the layers are kept from one revision to the next, as those of tiles are. An edit of an amplitude, a
 //! blend or a mask evaluates no noise here, and an edit of a layer's shape that layer alone.
 
+use super::edits::Edits;
 use super::field::Field;
 use super::height::{self, CompiledLayer, LayerStack};
 use super::kept::KeptFields;
 use super::points::Points;
 use crate::simd::Simd;
 use crate::world::cells::Cells;
-use crate::world::{Ground, Inputs, KeepGoing};
+use crate::world::{Course, Ground, Inputs, KeepGoing, Sculpted};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -54,6 +55,7 @@ pub(crate) struct LayerGround<'a> {
     pub(crate) inputs: &'a Inputs,
     pub(crate) stack: &'a LayerStack,
     pub(crate) under: Option<&'a LayerStack>,
+    pub(crate) edits: Option<&'a Edits>,
     pub(crate) simd: Simd,
     /// Where fields are taken from and kept.
     pub(crate) fields: &'a CellFields,
@@ -73,6 +75,14 @@ impl Ground for LayerGround<'_> {
             Some(under) => self.heights_of(under, cells, keep_going),
             None => Some(vec![0.0; cells.dirs.len()]),
         }
+    }
+
+    fn sculpted(&self, cells: &Cells) -> Option<Sculpted> {
+        self.edits?.sculpted(&cells.dirs)
+    }
+
+    fn courses(&self) -> &[Course] {
+        self.edits.map_or(&[], Edits::courses)
     }
 }
 

@@ -290,8 +290,8 @@ impl Terrain {
 
     /// The layers as world maps read them.
     fn ground<'a>(&'a self, fields: &'a CellFields) -> LayerGround<'a> {
-        let (stack, under) = (&self.stack, self.under.as_deref());
-        LayerGround { inputs: &self.map_inputs, stack, under, simd: self.simd, fields }
+        let (stack, under, edits) = (&self.stack, self.under.as_deref(), self.edits.as_deref());
+        LayerGround { inputs: &self.map_inputs, stack, under, edits, simd: self.simd, fields }
     }
 
     /// The paint of the climate at points; nothing if there is none at any.

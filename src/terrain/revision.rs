@@ -184,12 +184,14 @@ impl Compiled {
         let mut fields: Vec<Key> = stack.field_keys().chain(relief_noises).collect();
 
         let heights = Key::of(&stack.joined());
+        let edits = Edits::new(planet);
         let map_inputs = Inputs {
             heights,
             under: under.as_ref().map(|under| Key::of(&under.joined())),
             sea_level_m: planet.sea_level_m(),
             reads_coast: CompiledClimate::reads_coast(planet),
             structure: structure_inputs(planet),
+            sculpted: edits.as_ref().filter(|_| planet.structure.is_some()).and_then(|edits| edits.structure_key()),
             grids: planet.structure.as_ref().map_or(0, |structure| structure.grids as usize),
         };
         let (carved, plates) = (Slot::<Carved>::final_key(&map_inputs), Slot::<Plates>::final_key(&map_inputs));
@@ -205,9 +207,8 @@ impl Compiled {
             relief: relief.as_ref().map(Key::of),
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
-        let edits = Edits::new(planet);
         let tiles = content.keys(final_map_keys(&map_inputs), plates);
-        let all = edits.as_ref().map(|edits| (Some(edits.key()), edits.paint_key()));
+        let all = edits.as_ref().map(|edits| (edits.key(), edits.paint_key()));
         let tiles = content.with_edits(tiles, all.unwrap_or_default());
         let [materials, cloud_map, optical_depth, air_tables] = texture_keys(planet);
         let keys = Keys {

@@ -63,13 +63,14 @@ impl Water {
     }
 
     /// The water over the ground as all layers leave it. `spread_m`: how far the slope takes the ground from one point
-    /// to the next. Ground under the sea has none.
+    /// to the next. Where its surface would lie under the sea there is none.
     pub(crate) fn over(&self, ground_m: f64, spread_m: f64, sea_m: Option<f64>) -> Wet {
         let over_m = f64::from(self.lake_m) - ground_m;
         let lake = (0.5 + over_m / spread_m.max(LEAST_SPREAD_M)).clamp(0.0, 1.0);
         let river_rise_m = f64::from(self.river_rise_m);
-        let is_land = sea_m.is_none_or(|sea_m| ground_m > sea_m);
-        let river = if is_land { f64::from(self.river) } else { 0.0 };
+        // The bed of a great river may lie below the sea. Where its surface does, the water is the sea's.
+        let is_inland = sea_m.is_none_or(|sea_m| ground_m + river_rise_m > sea_m);
+        let river = if is_inland { f64::from(self.river) } else { 0.0 };
         if lake >= river {
             // Beyond a shore the next points know of it, too.
             let is_near = over_m > -SHORE * spread_m.max(LEAST_SPREAD_M);
@@ -114,6 +115,8 @@ mod tests {
         assert_eq!(lake.over(40.0, 2.0, None).rise_m, 60.0);
         assert_eq!(lake.over(100.0, 2.0, None).share, 0.5);
         assert_eq!(river.over(300.0, 2.0, Some(0.0)).share, f64::from(0.4_f32));
-        assert_eq!(Water { lake_m: f32::NEG_INFINITY, ..river }.over(-20.0, 2.0, Some(0.0)).share, 0.0);
+        let river = Water { lake_m: f32::NEG_INFINITY, ..river };
+        assert_eq!(river.over(-20.0, 2.0, Some(0.0)).share, 0.0);
+        assert_eq!(river.over(-2.0, 2.0, Some(0.0)).share, f64::from(0.4_f32), "its surface is a metre over the sea");
     }
 }

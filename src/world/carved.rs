@@ -11,6 +11,7 @@ use super::grid::refined;
 use super::map::{Inputs, Job, WorldMap};
 use super::plates::{Plates, Rock};
 use super::rivers::Rivers;
+use super::sculpted::rock_of;
 use super::weather::{self, Weather};
 use crate::planet::Key;
 use std::sync::{Arc, OnceLock};
@@ -50,13 +51,13 @@ impl WorldMap for Weather {
 
     fn key(inputs: &Inputs) -> Option<Key> {
         let structure = inputs.structure.as_ref()?;
-        Some(Key::of(&(structure, inputs.under, inputs.sea_level_m)))
+        Some(Key::of(&(structure, inputs.under, inputs.sea_level_m, inputs.sculpted)))
     }
 
     fn solve(job: &Job<'_>, side: usize, _coarser: Option<&Self>) -> Option<Self> {
         let rock = rock(job, None)?;
         // Rivers need rain, and rain needs the relief that rivers leave.
-        let first = weather_over(job, side, &rock.risen_m())?;
+        let first = weather_over(job, side, &rock_of(job, &rock).risen_m())?;
         let drainage = drainage_of(job, &rock, &first, None)?;
         let carved_m: Vec<f64> = drainage.height_m.iter().map(|height_m| f64::from(*height_m)).collect();
         weather_over(job, side, &carved_m)
@@ -148,10 +149,12 @@ fn rock(job: &Job<'_>, coarser: Option<&Rock>) -> Option<Rock> {
 pub(super) fn weather_over(job: &Job<'_>, side: usize, heights_m: &[f64]) -> Option<Weather> {
     let Inputs { sea_level_m, structure, .. } = job.inputs();
     let structure = structure.as_ref()?;
+    let sculpted = job.ground.sculpted(&Cells::of(side));
     let inputs = weather::Inputs {
         params: &structure.weather,
         side,
         heights_m,
+        more_rain_mm: sculpted.as_ref().map(|paint| &paint.rain_mm[..]),
         sea_level_m: *sea_level_m,
         equator_c: structure.equator_c,
         pole_c: structure.pole_c,
@@ -170,7 +173,7 @@ pub(super) fn drainage_of(
     let structure = structure.as_ref()?;
     let [runoff_mm, dryness_mm] =
         [weather.runoff_mm(), weather.dryness_mm()].map(|values| resampled(values, weather.side, rock.side));
-    let mut initial_m = rock.base_m.clone();
+    let Rock { base_m: mut initial_m, uplift_m, softness, .. } = rock_of(job, rock);
     let under_m = job.ground.under_m(&Cells::of(rock.side), job.keep_going)?;
     initial_m.iter_mut().zip(&under_m).for_each(|(initial_m, under_m)| *initial_m += under_m);
     let inputs = drainage::Inputs {
@@ -180,8 +183,9 @@ pub(super) fn drainage_of(
         radius_km: structure.radius_km,
         sea_level_m: *sea_level_m,
         initial_m: &initial_m,
-        uplift_m: &rock.uplift_m,
-        softness: &rock.softness,
+        uplift_m: &uplift_m,
+        softness: &softness,
+        courses: job.ground.courses(),
         runoff_mm: &runoff_mm,
         dryness_mm: &dryness_mm,
     };

@@ -8,6 +8,7 @@ use super::carved::{Carved, drainage_of, weather_over};
 use super::grid::children;
 use super::map::{Ground, Inputs, Job};
 use super::plates::Plates;
+use super::sculpted::rock_of;
 use super::slot::{MapWork, Slot};
 use std::sync::Arc;
 use std::time::Instant;
@@ -35,7 +36,8 @@ impl World {
             world.plates = Slot::draft(inputs, SIDE, plates)?;
         }
         let rock = world.plates.map()?.rock.clone();
-        let mut risen_m = rock.risen_m();
+        let job = Job { ground, world: &world, keep_going: &|| true };
+        let mut risen_m = rock_of(&job, &rock).risen_m();
         let mut side = rock.side;
         while side > SIDE {
             side /= 2;
@@ -43,7 +45,6 @@ impl World {
                 .map(|cell| children(side, cell).map(|i| risen_m[i]).iter().sum::<f64>() * 0.25)
                 .collect();
         }
-        let job = Job { ground, world: &world, keep_going: &|| true };
         let weather = weather_over(&job, side, &risen_m)?;
         let drainage = Arc::new(drainage_of(&job, &rock, &weather, None)?);
         let carved = Carved::new(drainage, inputs.sea_level_m, structure.radius_km, None);

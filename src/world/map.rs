@@ -1,8 +1,8 @@
 //! What a world map declares, and the planet as it reads it.
 
-use super::World;
 use super::bytes::{Reader, Writer};
 use super::cells::Cells;
+use super::{Course, Sculpted, World};
 use crate::planet::{Key, Plates, Rivers, Weather};
 use std::sync::Arc;
 
@@ -22,6 +22,8 @@ pub(crate) struct Inputs {
     pub(crate) reads_coast: bool,
     /// The structure, if the planet has one.
     pub(crate) structure: Option<Arc<StructureInputs>>,
+    /// Key of what ground edits change of the structure: [`Ground::sculpted`] and [`Ground::courses`].
+    pub(crate) sculpted: Option<Key>,
     /// Number of grids of its rivers.
     pub(crate) grids: usize,
 }
@@ -52,6 +54,16 @@ pub(crate) trait Ground: Sync {
 
     /// The same of the layers that lie under the structure; zeros if there are none.
     fn under_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>>;
+
+    /// Paint of the structure at the centres of cells, if there is some.
+    fn sculpted(&self, _cells: &Cells) -> Option<Sculpted> {
+        None
+    }
+
+    /// Rivers whose courses are drawn by hand.
+    fn courses(&self) -> &[Course] {
+        &[]
+    }
 }
 
 /// What a map is solved from.

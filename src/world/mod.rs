@@ -10,6 +10,7 @@
 //! - `cells`: the grid on which maps are solved; `slot`: one map, and its key
 //! - `plates`, `weather`, `carved`: the structure of a planet: its crust, its winds and rain, and the ground that
 //!   rivers carve (`drainage` solves rivers; `rivers` evaluates them at a point; `grid`, `noise` serve all)
+//! - `sculpted`: what ground edits change of a structure
 //! - `draft`: quick answers on coarse grids while a slider is dragged
 //! - `floodplain`: land that rivers and lakes keep wet
 //! - `coast`: signed distance to the coast; `picture`: maps as debug views show them
@@ -33,6 +34,7 @@ mod once;
 mod picture;
 pub(crate) mod plates;
 pub(crate) mod rivers;
+mod sculpted;
 mod slot;
 mod store;
 pub(crate) mod weather;
@@ -44,6 +46,7 @@ pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
 #[cfg(feature = "render")]
 pub(crate) use picture::{MapPicture, MapView, RAIN_COLORS};
 use plates::Plates;
+pub(crate) use sculpted::{Course, Sculpted};
 pub(crate) use slot::Slot;
 pub use slot::{MapLevel, MapWork};
 use std::fmt;

@@ -162,7 +162,15 @@ mod tests {
     impl Number {
         fn new(number: Option<f64>) -> Self {
             let heights = Key::default();
-            Self(Inputs { heights, under: None, sea_level_m: number, reads_coast: true, structure: None, grids: 0 })
+            Self(Inputs {
+                heights,
+                under: None,
+                sea_level_m: number,
+                reads_coast: true,
+                structure: None,
+                sculpted: None,
+                grids: 0,
+            })
         }
     }
 

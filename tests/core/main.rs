@@ -7,7 +7,7 @@
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
-//! - `sculpt`, `stamp`, `erosion`, `paint`: ground edits
+//! - `sculpt`, `stamp`, `erosion`, `paint`, `structural`: ground edits
 //! - `system`: orbits and resonances
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
@@ -32,6 +32,7 @@ mod saving;
 mod sculpt;
 mod sphere;
 mod stamp;
+mod structural;
 mod structure;
 mod system;
 mod terrain;

@@ -20,7 +20,7 @@
 //! - `variations`: variations of the planet, and locks
 //! - `monkey`: random commands, all of which can be undone
 //! - `photo`: photographs, films, and what a photographer sets
-//! - `viewport`: the camera and the picture
+//! - `viewport`: the camera and the picture; `panes`: several views
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 #[path = "../support/app.rs"]
@@ -45,6 +45,7 @@ mod library;
 mod looks;
 mod monkey;
 mod painter;
+mod panes;
 mod photo;
 mod place;
 mod plates;

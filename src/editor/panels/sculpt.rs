@@ -376,7 +376,8 @@ fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
 fn skipped(list: &[&'static str], tool: &Tool) -> Vec<&'static str> {
     let ground: &[&'static str] = if tool.is_paint() { &OF_GROUND } else { &[] };
     let stamp: &[&'static str] = if tool.is_stamp() { &[] } else { &OF_STAMPS };
-    [list, ground, stamp].concat()
+    let fades: &[&'static str] = if matches!(tool, Tool::River(_)) { &["softness"] } else { &[] };
+    [list, ground, stamp, fades].concat()
 }
 
 /// Says why a tool does nothing, or not all.
@@ -388,6 +389,9 @@ fn idle_tool(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
     }
     if let (Tool::Clouds(_), None) = (tool, &planet.clouds) {
         ui.weak("The planet has no clouds: switch them on in the Clouds tab, or nothing is painted.");
+    }
+    if tool.is_structural() && planet.structure.is_none() {
+        ui.weak("The planet has no structure that could answer: give it one in the Structure tab.");
     }
     let Tool::Biome(paint) = tool else { return };
     let biomes = &planet.biomes;

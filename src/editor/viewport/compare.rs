@@ -1,5 +1,6 @@
 //! Another planet beside the one that is edited, seen by the same camera: a line that can be dragged parts the two.
 
+use super::Viewport;
 use super::clock::{EditClock, FrameMeter};
 use super::frames::FrameLog;
 use super::picture::{Meters, Picture, Subject};
@@ -40,6 +41,25 @@ pub(super) struct Shared<'a> {
     pub(super) drafts: bool,
     pub(super) touched: bool,
     pub(super) now_secs: f64,
+}
+
+/// The planet that the one on screen is compared with.
+impl Viewport {
+    /// The planet that this one is compared with.
+    pub fn compare(&self) -> Option<&Compare> {
+        self.compare.as_ref()
+    }
+
+    /// Keeps a planet to compare others with; None ends the comparison.
+    pub fn set_compare(&mut self, planet: Option<Arc<Planet>>, ctx: &egui::Context) {
+        let options = || BuilderOptions::default().maps(self.maps.clone());
+        self.compare = planet.map(|planet| Compare::new(planet, &self.picture, options(), ctx));
+    }
+
+    /// Keeps a planet in the place of the one that is kept, and gives that.
+    pub fn swap_compared(&mut self, planet: Arc<Planet>) -> Option<Arc<Planet>> {
+        self.compare.as_mut().map(|compare| compare.swap(planet))
+    }
 }
 
 impl Compare {

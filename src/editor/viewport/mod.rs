@@ -10,6 +10,7 @@
 //! - [`layer_view`]: layers alone, and an overlay of what one does
 //! - `neighbours`: the other bodies of a system around the planet; [`voyage`], [`travel`]: flights from body to body;
 //!   `landing`: from orbit down to the ground
+//! - [`panes`]: more views beside the first, and maps of the globe
 //! - `outline`: the frustum of a frozen view
 //! - [`mod@pointer`]: the ground under the pointer; [`inspector`]: the inspected place; [`clicks`]: clicks for the open
 //!   tab; `plate_drag`: a plate that is dragged
@@ -33,6 +34,7 @@ pub mod layer_view;
 mod measure;
 mod neighbours;
 mod outline;
+pub mod panes;
 mod picture;
 mod plate_drag;
 pub mod pointer;
@@ -57,7 +59,7 @@ use crate::terrain::{MapStore, Revision};
 use crate::tiles::{Builder, BuilderOptions, Memory, Surface};
 use camera::{Cameras, Ground};
 use clicks::Clicks;
-use clock::{EditClock, FrameMeter, same_tiles};
+use clock::{EditClock, FrameMeter, revision_over};
 use compare::{Compare, Shared};
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
@@ -65,7 +67,8 @@ use frames::FrameLog;
 use ground::PlanetGround;
 use inspector::Inspector;
 use layer_view::LayerView;
-use neighbours::Neighbours;
+use neighbours::{Neighbours, Sky};
+use panes::{PaneSubject, Panes, Place};
 use picture::{Meters, Picture, Subject, quality_for};
 use pointer::{Aim, KnownPlace, Probe, in_view};
 use sculpt::{Hand, Scene};
@@ -118,6 +121,7 @@ pub struct Viewport {
     pointer: Probe,
     clicks: Clicks,
     hand: Hand,
+    panes: Panes,
 }
 
 impl Viewport {
@@ -161,6 +165,7 @@ impl Viewport {
             pointer: Probe::new(waker()),
             clicks: Clicks::new(waker()),
             hand: Hand::default(),
+            panes: Panes::default(),
         }
     }
 
@@ -171,22 +176,6 @@ impl Viewport {
         let lit = self.neighbours.as_ref().and_then(|neighbours| neighbours.lit_planet(self.settings.time_secs));
         self.cameras = Cameras::new(self.ground_radius_m, opening_place(lit.as_ref().unwrap_or(planet)));
         self.cameras.set_dive(dive);
-    }
-
-    /// The planet that this one is compared with.
-    pub fn compare(&self) -> Option<&Compare> {
-        self.compare.as_ref()
-    }
-
-    /// Keeps a planet to compare others with; None ends the comparison.
-    pub fn set_compare(&mut self, planet: Option<Arc<Planet>>, ctx: &egui::Context) {
-        let options = || BuilderOptions::default().maps(self.maps.clone());
-        self.compare = planet.map(|planet| Compare::new(planet, &self.picture, options(), ctx));
-    }
-
-    /// Keeps a planet in the place of the one that is kept, and gives that.
-    pub fn swap_compared(&mut self, planet: Arc<Planet>) -> Option<Arc<Planet>> {
-        self.compare.as_mut().map(|compare| compare.swap(planet))
     }
 
     /// The window's context.
@@ -206,8 +195,7 @@ impl Viewport {
 
     /// The newest planet if a surface has its tiles, else the surface's own.
     fn revision_over(&self, surface: &Surface) -> Revision {
-        let newest = self.newest.clone().filter(|newest| same_tiles(&surface.terrain, newest));
-        newest.unwrap_or_else(|| surface.terrain.revision())
+        revision_over(self.newest.as_ref(), surface)
     }
 
     /// The surface on screen.
@@ -222,7 +210,12 @@ impl Viewport {
 
     /// Whether a finer surface is being built or uploaded.
     pub fn is_busy(&self) -> bool {
-        self.builder.is_busy() || self.picture.is_behind(self.builder.surface().as_ref())
+        self.builder.is_busy() || self.picture.is_behind(self.own_surface().as_ref()) || self.panes_are_behind()
+    }
+
+    /// The newest surface of the view with the tools.
+    fn own_surface(&self) -> Option<Arc<Surface>> {
+        self.builder.surface_of(self.panes.active)
     }
 
     /// The time for which an edit has waited for its picture.
@@ -326,12 +319,10 @@ impl Viewport {
     /// Shows the picture in all of the room there is. `valid` is the planet that is drawn. A drag of the sun, of a
     /// plate or of a tool changes `draft`, and gives the name of that edit.
     pub fn show(&mut self, ui: &mut egui::Ui, valid: &Arc<Planet>, draft: &mut Planet) -> Option<&'static str> {
-        let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
+        let Place { rect, response } = self.place_panes(ui);
         if std::mem::take(&mut self.wants_focus) {
             response.request_focus();
         }
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "View of the planet"));
-        ui.painter().rect_filled(rect, 0.0, egui::Color32::BLACK);
         if rect.width() < 1.0 || rect.height() < 1.0 {
             return None;
         }
@@ -339,7 +330,7 @@ impl Viewport {
         let seen = self.layer_view.seen(valid, &self.tab.solo, self.tab.overlay.is_some());
         let valid = &seen;
         let own_id = self.own_id();
-        self.picture.advance(own_id, self.builder.surface().as_ref(), &mut self.frames, ui.ctx());
+        self.picture.advance(own_id, self.own_surface().as_ref(), &mut self.frames, ui.ctx());
         self.advance_travel(ui, &response);
         self.advance_landing(valid);
         let surface = self.surface();
@@ -368,6 +359,7 @@ impl Viewport {
         let touched = pressed || ui.input(|i| !i.events.is_empty());
         if touched {
             self.picture.refinement.touched(now_secs);
+            self.panes.touched(now_secs);
         }
         let view = self.view(ui.ctx(), rect, &ground);
         (self.rect, self.shown_camera) = (rect, Some(view.camera));
@@ -376,11 +368,13 @@ impl Viewport {
         // in radii.
         let mut wanted = self.frozen.unwrap_or(view);
         wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
-        self.builder.request(valid, &wanted);
+        let views = self.pane_views(valid, wanted, &ground);
+        self.builder.request_views(valid, &views);
         self.look_under_pointer(&response, &view, surface.as_ref());
         self.clicks.look((ui, &response), &self.tab, &view, surface.as_ref());
+        let sky = surface.as_ref().and_then(|_| self.sky(&view));
         if let Some(surface) = surface.clone() {
-            self.draw(surface, valid, view, pressed, now_secs);
+            self.draw(surface, valid, view, sky.clone(), pressed, now_secs);
         }
         if let Some(wait) = self.picture.refines_after(&self.settings, now_secs).filter(|_| !self.is_busy()) {
             ui.ctx().request_repaint_after(wait);
@@ -406,6 +400,18 @@ impl Viewport {
         if let Some(frozen) = &self.frozen {
             outline::paint(&ui.painter_at(rect), rect, frozen, &view, self.ground_radius_m);
         }
+        let subject = PaneSubject {
+            has_structure: valid.structure.is_some(),
+            settings: self.settings,
+            newest: self.newest.clone(),
+            own_id,
+            sky,
+            selected: link.selected.and_then(|index| valid.edits.get(index)),
+            drafts: pressed,
+            is_busy: self.is_busy(),
+            now_secs,
+        };
+        self.show_panes(ui, rect, &subject);
         held.edit.or(moved.edit)
     }
 
@@ -445,7 +451,15 @@ impl Viewport {
         }
     }
 
-    fn draw(&mut self, surface: Arc<Surface>, valid: &Arc<Planet>, view: View, drafts: bool, now_secs: f64) {
+    fn draw(
+        &mut self,
+        surface: Arc<Surface>,
+        valid: &Arc<Planet>,
+        view: View,
+        sky: Option<Sky>,
+        drafts: bool,
+        now_secs: f64,
+    ) {
         if !self.newest.as_ref().is_some_and(|newest| Arc::ptr_eq(newest.planet(), valid)) {
             self.newest = Revision::try_new(valid.clone()).ok();
         }
@@ -453,10 +467,6 @@ impl Viewport {
         let revision = self.revision_over(&surface);
         let (settings, marked) = (&self.settings, self.tab.marked.clone());
         let (frozen, is_busy) = (self.frozen, self.is_busy());
-        let sky = self
-            .neighbours
-            .as_mut()
-            .map(|neighbours| neighbours.sky(&self.builder, &view, settings.time_secs, &self.ctx));
         let subject = Subject { surface, revision, view, frozen, settings, marked, sky, drafts, is_busy, now_secs };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);
         self.picture.draw(&subject, &mut Meters { frames, frame_meter, edit_clock });

@@ -51,6 +51,12 @@ impl Viewport {
         self.body().map_or_else(BodyId::default, Worlds::id)
     }
 
+    /// The bodies around the planet as a view sees them; None if it is alone.
+    pub(super) fn sky(&mut self, view: &View) -> Option<Sky> {
+        let time_secs = self.settings.time_secs;
+        self.neighbours.as_mut().map(|neighbours| neighbours.sky(&self.builder, view, time_secs, &self.ctx))
+    }
+
     /// The planet's place in its system; None if it is alone.
     pub fn in_system(&self) -> Option<InSystem> {
         self.neighbours.as_ref().map(Neighbours::place)

@@ -16,7 +16,8 @@ pub(crate) use list::Shared;
 pub use points::{EditPoint, EditPoints};
 pub use tools::{
     BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, Mesa, MoisturePaint, PaintMode,
-    PictureStamp, Raise, Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Thermal, Tool, Volcano, Wall,
+    PictureStamp, RainPaint, Raise, Ridge, RiverCourse, Road, RockPaint, Roughen, Smooth, TemperaturePaint, Terrace,
+    Thermal, Tool, UpliftPaint, Volcano, Wall,
 };
 
 use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, count, linear, log, params};
@@ -47,11 +48,12 @@ params! {
         above_m: f64 = -MOST_LIMIT_M, "Only above", Unit::Metres, linear(-MOST_LIMIT_M, MOST_LIMIT_M), Stage::Height;
         /// It changes only ground below this height; at the greatest value, all ground.
         below_m: f64 = MOST_LIMIT_M, "Only below", Unit::Metres, linear(-MOST_LIMIT_M, MOST_LIMIT_M), Stage::Height;
-        /// Distance from its line, or from the middle of a stamp, to where it ends; for a crater, to the rim.
+        /// Distance from its line, or from the middle of a stamp, to where it ends; for a crater, to the rim; for a
+        /// river, how far it may stray from its line.
         radius_km: f64 = 50.0, "Radius", Unit::Kilometres, log(0.001, 5000.0), Stage::Height;
         /// Share of the radius over which it fades: 0 is a cliff, 1 fades from the middle on.
         softness: f64 = 0.8, "Softness", Unit::None, linear(0.0, 1.0), Stage::Height;
-        /// How ragged its outline is: 0 is smooth.
+        /// How ragged its outline is, or how far a river strays: 0 is smooth.
         raggedness: f64 = 0.0, "Raggedness", Unit::None, linear(0.0, 1.0), Stage::Height;
         /// Seed of its outline and roughness.
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Height;
@@ -72,12 +74,13 @@ params! {
 }
 
 impl GroundEdit {
-    /// A new edit with this tool. The outlines of land and of clouds are ragged.
+    /// A new edit with this tool. The outlines of land and of clouds are ragged, and rivers wind.
     pub fn of(tool: Tool) -> Self {
         let raggedness = match tool {
             Tool::Island(_) | Tool::Clouds(_) => 0.5,
             Tool::Mesa(_) => 0.3,
             Tool::Volcano(_) => 0.15,
+            Tool::Uplift(_) | Tool::River(_) => 0.6,
             _ => 0.0,
         };
         Self { tool, raggedness, ..Self::default() }

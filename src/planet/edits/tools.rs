@@ -53,6 +53,15 @@ kinds! {
     Biome(BiomePaint) = "Biome",
     /// Paints where clouds gather and where the sky clears. Clouds drift through the painted places.
     Clouds(CloudPaint) = "Clouds",
+    /// Paints how far rock rises while the rivers of the structure carve it: a range with valleys, or land out of the
+    /// sea.
+    Uplift(UpliftPaint) = "Uplift",
+    /// Paints how hard the rock is that the rivers of the structure carve: hard rock stands high and steep.
+    Rock(RockPaint) = "Rock hardness",
+    /// Paints rain of the structure's weather: rivers grow, lakes fill, biomes follow.
+    Rain(RainPaint) = "Rain",
+    /// The course of a river of the structure, from its spring to its mouth: it carves its valley along the line.
+    River(RiverCourse) = "River",
 }
 
 impl Tool {
@@ -70,13 +79,26 @@ impl Tool {
     pub fn is_line(&self) -> bool {
         matches!(
             self,
-            Tool::Ridge(_) | Tool::Canyon(_) | Tool::Road(_) | Tool::Wall(_) | Tool::Fault(_) | Tool::Coast(_)
+            Tool::Ridge(_)
+                | Tool::Canyon(_)
+                | Tool::Road(_)
+                | Tool::Wall(_)
+                | Tool::Fault(_)
+                | Tool::Coast(_)
+                | Tool::River(_)
         )
     }
 
-    /// Whether the tool paints the climate or the clouds, and leaves the ground as it is.
+    /// Whether the tool leaves the ground under it as it is: it paints the climate, the clouds or the structure.
     pub fn is_paint(&self) -> bool {
         matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_))
+            || self.is_structural()
+    }
+
+    /// Whether the tool changes what the structure is solved from: its rivers answer. Without a structure it does
+    /// nothing.
+    pub fn is_structural(&self) -> bool {
+        matches!(self, Tool::Uplift(_) | Tool::Rock(_) | Tool::Rain(_) | Tool::River(_))
     }
 }
 
@@ -330,5 +352,40 @@ params! {
     pub struct CloudPaint {
         /// How much cloudier it becomes: 1 is overcast, -1 is clear sky.
         amount: f64 = 0.25, "Amount", Unit::None, linear(-1.0, 1.0), Stage::CloudMap;
+    }
+}
+
+params! {
+    /// `uplift + uplift_m * w`, from which rivers carve; below 0 the ground sinks before they do.
+    pub struct UpliftPaint {
+        /// Height by which rock rises while rivers carve it; negative lets it sink.
+        uplift_m: f64 = 2500.0, "Uplift", Unit::Metres, linear(-10_000.0, 20_000.0), Stage::Field;
+    }
+}
+
+params! {
+    /// `log of the erodibility - hardness * w`
+    pub struct RockPaint {
+        /// How much harder the rock becomes: 1 is carved 2.7 times as slowly, -1 as fast.
+        hardness: f64 = 1.5, "Hardness", Unit::None, linear(-3.0, 3.0), Stage::Field;
+    }
+}
+
+params! {
+    /// `rain + rain_mm * w`, and at least 0
+    pub struct RainPaint {
+        /// Rain and snow that are added in a year; negative takes some away.
+        rain_mm: f64 = 800.0, "Rain", Unit::MillimetresPerYear, linear(-6000.0, 6000.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Water follows the line from its first point to its last, as far as that leads down. A line that ends inland leaves
+    /// the rest of the way to the water.
+    pub struct RiverCourse {
+        /// Water of the spring at the first point, besides what flows in along the way.
+        spring_m3_s: f64 = 200.0, "Spring", Unit::CubicMetresPerSecond, log(0.0, 500_000.0), Stage::Field;
+        /// How far the river has cut down: 0 is as its water has, 1 is as gently as rivers run.
+        cut: f64 = 0.9, "Cut", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }

@@ -9,6 +9,7 @@ use super::path::{self, Arc, angle_of};
 use super::reading::{Read, Reader};
 use super::smooth::Lattice;
 use super::stamp::{Stamp, Stamped};
+use super::structural::StructurePaint;
 use super::tool::{At, Change, CompiledTool, falloff, rise};
 use super::widening::Widening;
 use crate::planet::edits::MOST_LIMIT_M;
@@ -294,6 +295,11 @@ impl CompiledEdit {
     /// What the edit paints.
     pub(super) fn paint(&self) -> Option<&Paint> {
         if let CompiledTool::Paint(paint) = &self.tool { Some(paint) } else { None }
+    }
+
+    /// What it paints of the structure, if it does.
+    pub(super) fn structure_paint(&self) -> Option<StructurePaint> {
+        if let Some(Paint::Structure(paint)) = self.paint() { Some(*paint) } else { None }
     }
 
     /// The weight of paint, by these of its arcs: 1 in the core, 0 from the radius on.

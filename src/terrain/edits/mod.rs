@@ -9,6 +9,7 @@
 //! - `memory`: what those have found out, node by node
 //! - `stamp`: height pictures as stamps
 //! - `paint`: painted climate and clouds
+//! - `structural`: paint of a structure, and rivers whose courses are drawn
 //! - `outline`: noise for ragged outlines and rough ground
 //! - `compiled`: one edit: its tool, its line, the pieces of that line
 //! - `roster`: the edits that are on, in order, from one revision to the next
@@ -33,6 +34,7 @@ mod reading;
 mod roster;
 mod smooth;
 mod stamp;
+mod structural;
 mod tool;
 mod widening;
 
@@ -41,6 +43,7 @@ use super::height::Heights;
 use crate::planet::edits::Shared;
 use crate::planet::{GroundEdits, Key, Planet, Tool};
 use crate::sphere::NodeId;
+use crate::world::Course;
 use compiled::CompiledEdit;
 use glam::DVec3;
 use index::{Index, Piece, Walk};
@@ -68,6 +71,9 @@ pub(crate) struct Edits {
     places: Places,
     /// Those that paint clouds.
     clouds: Index,
+    /// Those that paint the structure, and rivers whose courses are drawn.
+    structural: Index,
+    courses: Vec<Course>,
     key: Key,
     /// Whether an edit reads the ground around a point.
     reads: bool,
@@ -82,7 +88,12 @@ pub(crate) struct Ground<'a> {
 
 impl fmt::Debug for Edits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Edits").field(&self.key).field(&self.paint_key()).field(&self.cloud_key()).finish()
+        f.debug_tuple("Edits")
+            .field(&self.key)
+            .field(&self.paint_key())
+            .field(&self.cloud_key())
+            .field(&self.structure_key())
+            .finish()
     }
 }
 
@@ -128,6 +139,8 @@ impl Edits {
             ground,
             climate: Index::default(),
             clouds: Index::default(),
+            structural: Index::default(),
+            courses: Vec::new(),
             places: Places::default(),
             key,
             reads: false,
@@ -142,7 +155,10 @@ impl Edits {
         let is_ground = |edit: &CompiledEdit| edit.paint().is_none();
         let mut ground = self.ground.next(&roster, &changes, is_ground);
         let climate = self.climate.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_climate));
-        let clouds = self.clouds.next(&roster, &changes, |edit| edit.paint().is_some_and(|paint| !paint.is_climate()));
+        let clouds = self.clouds.next(&roster, &changes, |edit| matches!(edit.paint(), Some(Paint::Clouds { .. })));
+        let structural = self.structural.next(&roster, &changes, |edit| edit.structure_paint().is_some());
+        let courses =
+            if changes.is_empty() { self.courses.clone() } else { structural::courses_of(&roster, world.radius_m) };
         // What reads the ground depends on the edits before it.
         let later = context::refresh(&mut roster, &ground, &changes);
         if !later.is_empty() {
@@ -150,7 +166,7 @@ impl Edits {
         }
         let places = self.places.next(planet, painted_biomes(planet, &climate));
         let reads = roster.reading().next().is_some();
-        Self { roster, key: ground.key_of_all(), ground, climate, places, clouds, reads }
+        Self { roster, key: ground.key_of_all(), ground, climate, places, clouds, structural, courses, reads }
     }
 
     /// The same edits on a planet whose biome table may be another.
@@ -159,14 +175,15 @@ impl Edits {
         if places == self.places {
             return self.clone();
         }
-        let Self { roster, ground, climate, clouds, key, reads, .. } = &**self;
-        let [ground, climate, clouds] = [ground, climate, clouds].map(Clone::clone);
-        Arc::new(Self { roster: roster.clone(), ground, climate, places, clouds, key: *key, reads: *reads })
+        let Self { roster, ground, climate, clouds, structural, courses, key, reads, .. } = &**self;
+        let [ground, climate, clouds, structural] = [ground, climate, clouds, structural].map(Clone::clone);
+        let (roster, courses) = (roster.clone(), courses.clone());
+        Arc::new(Self { roster, ground, climate, places, clouds, structural, courses, key: *key, reads: *reads })
     }
 
-    /// The key of all edits of the ground.
-    pub(crate) fn key(&self) -> Key {
-        self.key
+    /// The key of all edits of the ground. None if there is none.
+    pub(crate) fn key(&self) -> Option<Key> {
+        (!self.ground.is_empty()).then_some(self.key)
     }
 
     /// The key of all paint of clouds. None if there is none.

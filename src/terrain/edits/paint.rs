@@ -1,6 +1,8 @@
 //! Painted climate: strokes that change moisture and temperature, and those that paint a biome by the climate that it
-//! has in the biome table. Painted clouds: strokes that change the log-odds of their cover.
+//! has in the biome table. Painted clouds: strokes that change the log-odds of their cover. Paint of the structure is in
+//! `structural`.
 
+use super::structural::StructurePaint;
 use crate::planet::{Biomes, Planet, Table, TableRows};
 
 /// What paint makes of a number of the climate: of `x` at sea level and `less` by which it falls up to the surface it
@@ -81,12 +83,15 @@ pub(super) enum Paint {
     Clouds {
         odds: f64,
     },
+    Structure(StructurePaint),
+    /// The course of a river of the structure.
+    Course,
 }
 
 impl Paint {
     /// Whether it changes the climate of the ground.
     pub(super) fn is_climate(&self) -> bool {
-        !matches!(self, Self::Clouds { .. })
+        matches!(self, Self::Moisture { .. } | Self::Temperature { .. } | Self::Biome { .. })
     }
 
     /// Paints the climate with a weight.
@@ -105,7 +110,7 @@ impl Paint {
                     painted.temperature.set(temperature_c, weight * strength);
                 }
             }
-            Self::Clouds { .. } => {}
+            Self::Clouds { .. } | Self::Structure(_) | Self::Course => {}
         }
     }
 }

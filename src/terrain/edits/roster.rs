@@ -130,6 +130,11 @@ impl Roster {
         }
     }
 
+    /// The edits that are on, in order.
+    pub(super) fn shared(&self) -> impl Iterator<Item = &Arc<Shared>> {
+        self.entries.iter().map(|entry| &entry.shared)
+    }
+
     /// How many edits are on.
     pub(super) fn len(&self) -> usize {
         self.entries.len()

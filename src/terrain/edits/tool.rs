@@ -4,10 +4,12 @@
 use super::index::Hash;
 use super::outline;
 use super::paint::Paint;
+use super::structural::StructurePaint;
 use super::widening::Widening;
 use crate::planet::edits::{
     BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, Mesa, MoisturePaint, PaintMode,
-    PictureStamp, Raise, Ridge, Road, Roughen, Smooth, TemperaturePaint, Terrace, Thermal, Volcano, Wall,
+    PictureStamp, RainPaint, Raise, Ridge, Road, RockPaint, Roughen, Smooth, TemperaturePaint, Terrace, Thermal,
+    UpliftPaint, Volcano, Wall,
 };
 use crate::planet::picture::PictureExtent;
 use crate::planet::{GroundEdit, Tool};
@@ -206,6 +208,12 @@ impl CompiledTool {
                 Self::Paint(Paint::Temperature { value_c: temperature_c, sets: mode == PaintMode::Set })
             }
             Tool::Biome(BiomePaint { biome, strength }) => Self::Paint(Paint::Biome { key: biome, strength }),
+            Tool::Uplift(UpliftPaint { uplift_m }) => {
+                Self::Paint(Paint::Structure(StructurePaint::Uplift { uplift_m }))
+            }
+            Tool::Rock(RockPaint { hardness }) => Self::Paint(Paint::Structure(StructurePaint::Rock { hardness })),
+            Tool::Rain(RainPaint { rain_mm }) => Self::Paint(Paint::Structure(StructurePaint::Rain { rain_mm })),
+            Tool::River(_) => Self::Paint(Paint::Course),
             Tool::Clouds(CloudPaint { amount }) => Self::Paint(Paint::Clouds { odds: CLOUD_ODDS * amount }),
         }
     }
@@ -240,6 +248,10 @@ impl CompiledTool {
             Self::Paint(Paint::Temperature { value_c, sets }) => (21, [value_c, f64::from(u8::from(sets)), 0.0, 0.0]),
             Self::Paint(Paint::Biome { key, strength }) => (22, [strength, f64::from(u32::from(key)), 0.0, 0.0]),
             Self::Paint(Paint::Clouds { odds }) => (23, [odds, 0.0, 0.0, 0.0]),
+            Self::Paint(Paint::Structure(StructurePaint::Uplift { uplift_m })) => (24, [uplift_m, 0.0, 0.0, 0.0]),
+            Self::Paint(Paint::Structure(StructurePaint::Rock { hardness })) => (25, [hardness, 0.0, 0.0, 0.0]),
+            Self::Paint(Paint::Structure(StructurePaint::Rain { rain_mm })) => (26, [rain_mm, 0.0, 0.0, 0.0]),
+            Self::Paint(Paint::Course) => (27, [0.0; 4]),
         };
         hash.add(kind);
         numbers.into_iter().for_each(|number| hash.add_f64(number));

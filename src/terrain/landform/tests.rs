@@ -40,6 +40,7 @@ static STEERING: LazyLock<Steering> = LazyLock::new(|| {
         params: &planet::Weather::default(),
         side: 32,
         heights_m: &coarse.rock.risen_m(),
+        more_rain_mm: None,
         sea_level_m: Some(0.0),
         equator_c: 28.0,
         pole_c: -26.0,

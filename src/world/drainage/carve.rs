@@ -37,9 +37,9 @@ pub(super) fn earthly_m3_s(units: u64) -> f64 {
     units as f64 * (DISCHARGE_UNIT * EARTH_M * EARTH_M / YEAR_S)
 }
 
-/// How slowly rock of a softness is carved.
+/// How slowly rock is carved. `softness`: the logarithm of how easily, against the planet's mean.
 pub(super) fn slowness(params: &Params, softness: f64) -> f64 {
-    1.0 / (ERODIBILITY * params.erodibility * libm::exp(params.rock_variation * softness))
+    1.0 / (ERODIBILITY * params.erodibility * libm::exp(softness))
 }
 
 /// The way down from a cell.

@@ -41,6 +41,16 @@ pub(super) fn dry_units(above_m: f64) -> u32 {
     (above_m * (1.0 / UNIT_M)).clamp(1.0, f64::from(MOST)) as u32 | DRY
 }
 
+/// The height in units of a cell, flooded or not.
+pub(super) fn raw(units: u32) -> u32 {
+    units & !DRY
+}
+
+/// A height in units of a cell that is to be flooded.
+pub(super) fn dry(units: u32) -> u32 {
+    units | DRY
+}
+
 /// Floods heights in units from the cells of the shore and from sinks: afterwards they have no pits. The sea has 0, and
 /// land [`dry_units`]. None if `keep_going` said no.
 pub(super) fn fill(

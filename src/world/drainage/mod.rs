@@ -6,12 +6,13 @@
 //! one, so that both have them in the same places.
 //!
 //! - `flood`: filling of pits; `route`: receivers and discharge; `carve`: heights of beds; `lakes`: lakes
-//! - `kept`: rivers on disk
+//! - `forced`: courses that are drawn by hand; `kept`: rivers on disk
 //! - `start`: sea, closed basins and the surface at which a grid starts; deltas; `basins`: land by mouths
 
 mod basins;
 mod carve;
 mod flood;
+mod forced;
 mod kept;
 mod lakes;
 mod route;
@@ -21,8 +22,10 @@ use super::cells::Cells;
 use super::grid::{areas_sr, node};
 use super::map::KeepGoing;
 use super::noise::{hash, unit};
+use super::sculpted::Course;
 use crate::planet::Rivers as Params;
 pub(crate) use basins::Basins;
+use forced::Forced;
 use glam::DVec3;
 use lakes::Lakes;
 use rayon::prelude::*;
@@ -46,10 +49,12 @@ pub(crate) struct Inputs<'a> {
     pub(crate) initial_m: &'a [f64],
     /// Height in metres by which rock rises in the age of the rivers.
     pub(crate) uplift_m: &'a [f64],
-    /// Logarithm of how easily rock is carved.
+    /// Logarithm of how easily rock is carved; 0 is the mean.
     pub(crate) softness: &'a [f64],
     /// Water that runs off, in mm a year.
     pub(crate) runoff_mm: &'a [f64],
+    /// Rivers whose courses are drawn by hand.
+    pub(crate) courses: &'a [Course],
     /// What a lake loses to the air beyond the rain that falls on it, in mm a year. Below zero where it gains.
     pub(crate) dryness_mm: &'a [f64],
 }
@@ -118,6 +123,8 @@ pub(super) struct Level<'a> {
     pub(super) shore: Vec<u32>,
     /// How slowly rock is carved; see `carve`.
     pub(super) slowness: Vec<f64>,
+    /// Courses that are drawn by hand.
+    forced: Forced,
 }
 
 impl Level<'_> {
@@ -167,9 +174,11 @@ impl Drainage {
             land: Vec::new(),
             shore: Vec::new(),
             slowness: Vec::new(),
+            forced: Forced::default(),
         };
         let nodes = level.complete(inputs, &cells, seed);
-        let source = level.source(inputs);
+        let mut source = level.source(inputs);
+        level.forced.add_springs(&mut source);
         let mut surface_m = start::surface(&level, &cells, coarser, seed);
         let mut sinks = match coarser {
             Some(coarser) => start::finer_sinks(&level, coarser, inputs.side),
@@ -183,8 +192,8 @@ impl Drainage {
                 return None;
             }
             let units = level.dry_units(&surface_m, |cell, above_m| roughness_m(above_m, seed, cell));
-            let units = flood::fill(&cells, units, &level.shore, &sinks, keep_going)?;
-            let routes = Routes::new(&cells, &nodes, &units, &level.land, &level.is_sea);
+            let units = level.filled(&cells, units, &sinks, keep_going)?;
+            let routes = Routes::new(&cells, &nodes, &units, &level);
             let discharge = routes.accumulated(&source);
             let beds_m = carve::beds_m(&level, &routes, &discharge);
             if round + 1 < rounds {
@@ -236,6 +245,8 @@ impl Level<'_> {
             if is_sea[cell] { 0.0 } else { carve::slowness(self.params, inputs.softness[cell]) }
         };
         self.slowness = all.clone().into_par_iter().with_min_len(1024).map(slowness).collect();
+        self.forced = Forced::new(inputs.courses, inputs.side, inputs.radius_km, is_sea);
+        self.forced.cut(&mut self.slowness);
         let place = |cell: usize| {
             if is_sea[cell] && !meets(cell, false) { DVec3::ZERO } else { node(inputs.side, cell, seed) }
         };
@@ -249,6 +260,22 @@ impl Level<'_> {
             if self.is_sea[cell] { 0 } else { flood::dry_units(above_m + rough(cell, above_m)) }
         };
         surface_m.par_iter().enumerate().with_min_len(4096).map(units).collect()
+    }
+
+    /// Heights for routes from those of [`Level::dry_units`]: without pits, and with the trenches of drawn rivers.
+    fn filled(
+        &self,
+        cells: &Cells,
+        mut units: Vec<u32>,
+        sinks: &[u32],
+        keep_going: &KeepGoing<'_>,
+    ) -> Option<Vec<u32>> {
+        let fill = |units| flood::fill(cells, units, &self.shore, sinks, keep_going);
+        if !self.forced.is_empty() {
+            let filled = if self.forced.ends_inland() { fill(units.clone())? } else { Vec::new() };
+            self.forced.dig(&mut units, &filled);
+        }
+        fill(units)
     }
 
     /// Water that each cell adds to its river, in units of the discharge.

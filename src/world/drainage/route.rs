@@ -1,5 +1,6 @@
 //! Routes of water: each land cell's receiver, the discharge, and a search along the way down.
 
+use super::Level;
 use crate::world::cells::Cells;
 use crate::world::grid::arc_rad;
 use glam::DVec3;
@@ -29,11 +30,16 @@ const GROUP: usize = 2048;
 const NONE: u32 = u32::MAX;
 
 impl Routes {
-    /// The steepest way down from each cell of a filled surface. Ways over two diagonals never cross.
-    pub(super) fn new(cells: &Cells, nodes: &[DVec3], units: &[u32], land: &[u32], is_sea: &[bool]) -> Self {
+    /// The steepest way down from each cell of a filled surface, or the way of a course that is drawn by hand. Ways over
+    /// two diagonals never cross.
+    pub(super) fn new(cells: &Cells, nodes: &[DVec3], units: &[u32], level: &Level<'_>) -> Self {
+        let Level { land, is_sea, forced, .. } = level;
         let steepest = |cell: usize| {
             if is_sea[cell] {
                 return cell as u32;
+            }
+            if let Some(to) = forced.receiver(cell, units) {
+                return to;
             }
             let (here, from) = (units[cell], nodes[cell]);
             let mut best = (0.0, cell as u32);
@@ -71,7 +77,14 @@ impl Routes {
                 };
                 // Of two ways that cross, the one from the higher cell turns to the lower end of the other.
                 let key = |cell: u32| (units[cell as usize], cell);
-                if key(cell as u32) > key(from) {
+                let is_forced = |cell: usize| forced.receiver(cell, units).is_some();
+                // A drawn course stays, unless the other way begins below it.
+                let turns = match (is_forced(cell), is_forced(from as usize)) {
+                    (true, false) => units[from as usize] <= units[to as usize],
+                    (false, true) => units[cell] > units[into as usize],
+                    _ => key(cell as u32) > key(from),
+                };
+                if turns {
                     return if key(into) < key(to) || is_sea[into as usize] {
                         into
                     } else {

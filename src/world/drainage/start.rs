@@ -197,10 +197,10 @@ pub(super) fn sinks(
     const LEAST_M: f64 = 60.0;
     const LEAST_CELLS: usize = 2;
     let surface_m: Vec<f64> = (0..source.len()).map(|cell| level.surface_m(cell)).collect();
-    let units = flood::fill(cells, level.dry_units(&surface_m, |_, _| 0.0), &level.shore, &[], keep_going)?;
+    let units = level.filled(cells, level.dry_units(&surface_m, |_, _| 0.0), &[], keep_going)?;
     let depth_m: Vec<f64> =
         (0..source.len()).map(|cell| f64::from(units[cell]) * flood::UNIT_M + level.base_m - surface_m[cell]).collect();
-    let routes = Routes::new(cells, nodes, &units, &level.land, &level.is_sea);
+    let routes = Routes::new(cells, nodes, &units, level);
     let discharge = routes.by_cell(&routes.accumulated(source));
     let mut seen: Vec<bool> = depth_m.iter().enumerate().map(|(c, m)| level.is_sea[c] || *m < LEAST_M).collect();
     let mut sinks = Vec::new();

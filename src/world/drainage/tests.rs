@@ -10,6 +10,7 @@ struct Island {
     uplift_m: Vec<f64>,
     even: Vec<f64>,
     params: Params,
+    courses: Vec<Course>,
 }
 
 impl Island {
@@ -22,14 +23,21 @@ impl Island {
         let rise = |d: &DVec3| 3000.0 * (0.4 + 0.6 * fbm(*d, 4.0, 3, 0.5, 6)).clamp(0.15, 1.0);
         let uplift_m = cells.dirs.iter().map(|d| if inside(d) > 0.0 { rise(d) } else { 0.0 }).collect();
         let params = Params { age_myr: 40.0, rock_variation: 0.0, deposition: 0.0, ..Params::default() };
-        Self { side, initial_m, uplift_m, even: vec![0.0; cells.dirs.len()], params }
+        Self { side, initial_m, uplift_m, even: vec![0.0; cells.dirs.len()], params, courses: Vec::new() }
     }
 
     fn finer(&self) -> Self {
         let cells = Cells::of(self.side);
         let double = |values: &[f64]| refined(&cells, values);
         let (initial_m, uplift_m, even) = (double(&self.initial_m), double(&self.uplift_m), double(&self.even));
-        Self { side: 2 * self.side, initial_m, uplift_m, even, params: self.params.clone() }
+        Self {
+            side: 2 * self.side,
+            initial_m,
+            uplift_m,
+            even,
+            params: self.params.clone(),
+            courses: self.courses.clone(),
+        }
     }
 
     fn solved(&self, coarser: Option<&Drainage>) -> Drainage {
@@ -52,6 +60,7 @@ impl Island {
             initial_m: &self.initial_m,
             uplift_m: &self.uplift_m,
             softness: &self.even,
+            courses: &self.courses,
             runoff_mm,
             dryness_mm,
         };
@@ -97,9 +106,101 @@ fn all_water_reaches_the_sea_or_a_closed_basin_and_no_ground_rises_along_it() {
     }
 }
 
+/// A course across a continent, from one coast to another place.
+fn course(from: DVec3, to: DVec3, spring_m3_s: f64, cut: f64) -> Course {
+    let points = (0..=4).map(|k| from.lerp(to, f64::from(k) * 0.25).normalize()).collect();
+    Course { points, wander_rad: 0.0, seed: 1, spring_m3_s, cut }
+}
+
+#[test]
+fn a_drawn_river_follows_its_line_to_the_sea_and_gathers_water_along_it() {
+    let middle = DVec3::new(0.5, 0.6, 0.62).normalize();
+    let (east, north) = crate::sphere::geo::east_north(middle);
+    let mut island = Island::new(48);
+    let bare = island.solved(None);
+    // From beyond the middle, over its watershed, far out into the sea.
+    let [spring, sea] = [-0.2, 1.2].map(|along| (middle + (east * 0.8 + north * 0.6) * along).normalize());
+    island.courses = vec![course(spring, sea, 0.0, 0.9)];
+    for side in [48, 96] {
+        let found = match side {
+            48 => island.solved(None),
+            _ => island.finer().solved(Some(&island.solved(None))),
+        };
+        let mut cell = crate::world::grid::cell_at(side, spring);
+        assert!(!found.is_sea[cell]);
+        let (mut length, mut before) = (0, 0);
+        while !found.is_sea[cell] {
+            let dir = Cells::of(side).dirs[cell];
+            let aside = dir.dot(spring.cross(sea).normalize()).abs();
+            assert!(aside < 1.5 / side as f64 * 2.0, "{aside} from the line, cell {length}");
+            assert!(found.discharge[cell] > before, "no water flows in");
+            (before, length) = (found.discharge[cell], length + 1);
+            assert!(found.receiver[cell] as usize != cell, "it ends on land after {length} cells");
+            cell = found.receiver[cell] as usize;
+        }
+        assert!(length > side / 4, "{length} cells");
+        assert!(found.order.iter().all(|cell| found.is_sea[end(&found, *cell as usize)]
+            || found.sinks.contains(&(end(&found, *cell as usize) as u32))));
+    }
+    // Without the line its water went elsewhere.
+    let mut cell = crate::world::grid::cell_at(48, spring);
+    let mut aside = 0.0_f64;
+    while !bare.is_sea[cell] && bare.receiver[cell] as usize != cell {
+        aside = aside.max(Cells::of(48).dirs[cell].dot(spring.cross(sea).normalize()).abs());
+        cell = bare.receiver[cell] as usize;
+    }
+    assert!(aside > 3.0 / 48.0 * 2.0, "{aside}");
+}
+
+#[test]
+fn a_spring_adds_its_water_and_a_cut_lowers_the_bed() {
+    let middle = DVec3::new(0.5, 0.6, 0.62).normalize();
+    let (east, _) = crate::sphere::geo::east_north(middle);
+    let sea = (middle + east * 1.2).normalize();
+    let solved = |spring_m3_s: f64, cut: f64| {
+        let mut island = Island::new(48);
+        island.courses = vec![course(middle, sea, spring_m3_s, cut)];
+        let found = island.solved(None);
+        let cell = crate::world::grid::cell_at(48, middle);
+        (found.discharge_m3_s[cell], found.bed_m[cell])
+    };
+    let [(dry, high_m), (wet, _), (_, low_m)] = [solved(0.0, 0.0), solved(5000.0, 0.0), solved(0.0, 1.0)];
+    // A greater river cuts deeper, and gathers a little more.
+    assert!((5000.0..6000.0).contains(&(wet - dry)), "{dry} {wet}");
+    assert!(low_m < 0.5 * high_m, "{low_m} {high_m}");
+}
+
+#[test]
+fn a_drawn_river_may_end_inland_or_join_another() {
+    let middle = DVec3::new(0.5, 0.6, 0.62).normalize();
+    let (east, north) = crate::sphere::geo::east_north(middle);
+    let at = |x: f64, y: f64| (middle + east * x + north * y).normalize();
+    let mut island = Island::new(48);
+    island.courses = vec![
+        course(at(-0.1, 0.0), at(1.2, 0.0), 100.0, 0.5),
+        course(at(0.1, 0.3), at(0.1, -0.2), 3000.0, 0.5),
+        course(at(-0.2, -0.3), at(-0.35, -0.25), 2000.0, 0.5),
+    ];
+    let found = island.solved(None);
+    let water = |x: f64, y: f64| found.discharge_m3_s[crate::world::grid::cell_at(48, at(x, y))];
+    assert!(water(0.2, 0.0) > 3100.0, "{}", water(0.2, 0.0));
+    assert!(water(-0.35, -0.25) > 2000.0);
+    assert!(found.order.iter().all(|cell| {
+        let last = end(&found, *cell as usize);
+        found.is_sea[last] || found.sinks.contains(&(last as u32))
+    }));
+}
+
 #[test]
 fn no_two_ways_cross() {
-    let found = Island::new(48).solved(None);
+    let bare = Island::new(48);
+    let (middle, sea) = (DVec3::new(0.5, 0.6, 0.62).normalize(), DVec3::new(0.9, -0.3, 0.4).normalize());
+    let drawn = Island { courses: vec![course(middle, sea, 100.0, 0.5)], ..Island::new(48) };
+    no_ways_cross(&bare.solved(None));
+    no_ways_cross(&drawn.solved(None));
+}
+
+fn no_ways_cross(found: &Drainage) {
     let cells = Cells::of(48);
     let place = |cell: u32| node(found.side, cell as usize, found.seed);
     let mut crossings = 0;
@@ -283,6 +384,7 @@ fn a_planet_without_a_sea_has_rivers_that_run_dry_in_its_plains() {
         initial_m: &island.initial_m,
         uplift_m: &island.uplift_m,
         softness: &island.even,
+        courses: &[],
         runoff_mm: &even,
         dryness_mm: &even,
     };

@@ -35,7 +35,7 @@ fn planet(grids: usize) -> Bare {
         lapse_c_per_km: 6.5,
     };
     let (heights, structure) = (Key::default(), Some(Arc::new(structure)));
-    Bare(Inputs { heights, under: None, sea_level_m: Some(0.0), reads_coast: false, structure, grids })
+    Bare(Inputs { heights, under: None, sea_level_m: Some(0.0), reads_coast: false, structure, sculpted: None, grids })
 }
 
 fn solved(store: &Arc<MapStore>, planet: &Bare) -> (World, MapWork) {

@@ -28,6 +28,8 @@ pub(crate) struct Inputs<'a> {
     pub(crate) side: usize,
     /// Height of the ground in metres.
     pub(crate) heights_m: &'a [f64],
+    /// Rain and snow that are added by hand, in mm a year.
+    pub(crate) more_rain_mm: Option<&'a [f64]>,
     /// Height of the sea's surface in metres, if there is a sea.
     pub(crate) sea_level_m: Option<f64>,
     /// Temperatures at sea level, and how much colder it gets with height.
@@ -100,7 +102,9 @@ impl Weather {
                 wind_m_s[cell][1] += 0.5 * season.wind_m_s[cell].dot(north);
             }
         }
-        let rain_mm = smoothed(&cells, &rain_mm, (inputs.side / 32).max(1));
+        let mut rain_mm = smoothed(&cells, &rain_mm, (inputs.side / 32).max(1));
+        let added_mm = inputs.more_rain_mm.unwrap_or_default();
+        rain_mm.iter_mut().zip(added_mm).for_each(|(rain_mm, added_mm)| *rain_mm = (*rain_mm + added_mm).max(0.0));
         let evaporation_mm = ground.temperature_c.iter().map(|c| potential_mm(*c)).collect();
         let warmer = (0..cells.dirs.len()).map(|cell| ground.current_c(cell).clamp(-WARMEST_C, WARMEST_C) as f32);
         let warmer_c = warmer.collect();

@@ -15,6 +15,7 @@ fn inputs<'a>(params: &'a Params, heights_m: &'a [f64]) -> Inputs<'a> {
         params,
         side: SIDE,
         heights_m,
+        more_rain_mm: None,
         sea_level_m: Some(0.0),
         equator_c: 28.0,
         pole_c: -26.0,

@@ -1,0 +1,77 @@
+//! Edits that change what a structure is solved from: paint of uplift, of rock and of rain, and courses of rivers.
+
+use super::Edits;
+use super::index::Walk;
+use super::near::Near;
+use super::roster::Roster;
+use crate::planet::edits::{EditPoint, RiverCourse};
+use crate::planet::{Key, Tool};
+use crate::world::{Course, Sculpted};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Points painted at a time.
+const CHUNK: usize = 4096;
+
+/// Paint of the structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum StructurePaint {
+    Uplift { uplift_m: f64 },
+    Rock { hardness: f64 },
+    Rain { rain_mm: f64 },
+}
+
+impl Edits {
+    /// The key of all edits of the structure. None if there is none.
+    pub(crate) fn structure_key(&self) -> Option<Key> {
+        let is_none = self.structural.is_empty() && self.courses.is_empty();
+        (!is_none).then(|| Key::of(&(self.structural.key_of_all(), &self.courses)))
+    }
+
+    /// Rivers whose courses are drawn by hand, in the order of the edits.
+    pub(crate) fn courses(&self) -> &[Course] {
+        &self.courses
+    }
+
+    /// Paint of the structure at points. None if there is none anywhere.
+    pub(crate) fn sculpted(&self, dirs: &[DVec3]) -> Option<Sculpted> {
+        if self.structural.is_empty() {
+            return None;
+        }
+        let mut sculpted = Sculpted::none(dirs.len());
+        let Sculpted { uplift_m, hardness, rain_mm } = &mut sculpted;
+        let chunks = uplift_m.par_chunks_mut(CHUNK).zip(hardness.par_chunks_mut(CHUNK));
+        let chunks = chunks.zip(rain_mm.par_chunks_mut(CHUNK)).zip(dirs.par_chunks(CHUNK));
+        chunks.for_each(|(((uplift_m, hardness), rain_mm), dirs)| {
+            Near::default().each_leaf(Walk::new(&self.structural), &self.roster, dirs, |points, near| {
+                for i in points.iter().map(|point| *point as usize) {
+                    for (slot, arcs) in near.groups() {
+                        let Some(edit) = self.roster.edit(slot) else { continue };
+                        let (Some(paint), weight) = (edit.structure_paint(), edit.weight(dirs[i], &arcs)) else {
+                            continue;
+                        };
+                        match paint {
+                            StructurePaint::Uplift { uplift_m: by_m } => uplift_m[i] += by_m * weight,
+                            StructurePaint::Rock { hardness: by } => hardness[i] += by * weight,
+                            StructurePaint::Rain { rain_mm: by_mm } => rain_mm[i] += by_mm * weight,
+                        }
+                    }
+                }
+            });
+        });
+        Some(sculpted)
+    }
+}
+
+/// The rivers of a roster whose courses are drawn by hand.
+pub(super) fn courses_of(roster: &Roster, radius_m: f64) -> Vec<Course> {
+    let course = |edit: &crate::planet::GroundEdit| match edit.tool {
+        Tool::River(RiverCourse { spring_m3_s, cut }) => {
+            let points = edit.points.0.iter().map(EditPoint::direction).collect();
+            let wander_rad = edit.raggedness * edit.radius_km * 1000.0 / radius_m;
+            Some(Course { points, wander_rad, seed: edit.seed, spring_m3_s, cut })
+        }
+        _ => None,
+    };
+    roster.shared().filter_map(|shared| course(&shared.edit)).collect()
+}
