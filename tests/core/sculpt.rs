@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::time::Duration;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::edits::{
-    Canyon, Coast, Crater, EditPoint, EditPoints, Fault, Flatten, GroundEdit, Island, Limit, Mesa, PictureStamp, Raise,
-    Ridge, Road, Terrace, Tool, Volcano, Wall,
+    Canyon, Coast, Crater, EditBlend, EditPoint, EditPoints, Fault, Flatten, GroundEdit, Island, Limit, Mesa,
+    PictureStamp, Raise, Ridge, Road, Terrace, Tool, Volcano, Wall,
 };
 use tellus::planet::{Fbm, GroundEdits, Layer, Planet, Shape, Water};
 use tellus::simd::Simd;
@@ -190,6 +190,26 @@ fn land_alone_and_sea_floor_alone_change_no_other_ground_and_make_no_cliff() {
             assert!(changed > 300 && kept > 300, "{changed} {kept}");
         }
     }
+}
+
+#[test]
+fn of_the_new_ground_and_the_old_the_higher_or_the_lower_stays() {
+    let flatten = |blend| {
+        let flatten = edit(Tool::Flatten(Flatten { height_m: 100.0, strength: 1.0 }), 300.0, &[at(5.0, 5.0)]);
+        terrain(&planet(2500.0, vec![GroundEdit { blend, softness: 0.2, ..flatten }]))
+    };
+    let before = terrain(&planet(2500.0, Vec::new()));
+    let [both, raised, lowered] = [EditBlend::Both, EditBlend::Raise, EditBlend::Lower].map(flatten);
+    let (mut higher, mut lower) = (0, 0);
+    for i in 0..2000 {
+        let dir = beside(&at(5.0, 5.0), f64::from(i) * 7.3, f64::from(i) * 0.15);
+        let [was_m, both_m, raised_m, lowered_m] =
+            [&before, &both, &raised, &lowered].map(|terrain| terrain.height_m(dir));
+        assert_eq!((raised_m, lowered_m), (was_m.max(both_m), was_m.min(both_m)));
+        higher += usize::from(raised_m > was_m);
+        lower += usize::from(lowered_m < was_m);
+    }
+    assert!(higher > 300 && lower > 300, "{higher} {lower}");
 }
 
 #[test]

@@ -40,7 +40,7 @@ const OWN_ROWS: [&str; 3] = ["name", "enabled", "points"];
 /// Parameters of an edit that a brush does not have.
 const NOT_OF_BRUSH: [&str; 4] = ["name", "enabled", "points", "seed"];
 /// Parameters of tools that change the ground alone.
-const OF_GROUND: [&str; 3] = ["limit", "above_m", "below_m"];
+const OF_GROUND: [&str; 4] = ["limit", "blend", "above_m", "below_m"];
 /// Parameters of stamps alone.
 const OF_STAMPS: [&str; 3] = ["copies", "spread_km", "smallest"];
 

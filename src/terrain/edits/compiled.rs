@@ -12,7 +12,7 @@ use super::stamp::{Stamp, Stamped};
 use super::structural::StructurePaint;
 use super::tool::{At, Change, CompiledTool, falloff, rise};
 use super::widening::Widening;
-use crate::planet::edits::MOST_LIMIT_M;
+use crate::planet::edits::{EditBlend, MOST_LIMIT_M};
 use crate::planet::{GroundEdit, Limit, Tool};
 use glam::DVec3;
 
@@ -48,6 +48,7 @@ pub(super) struct CompiledEdit {
     stamp: Option<Stamp>,
     /// How the edit reads the ground around a point.
     pub(super) reader: Option<Reader>,
+    blend: EditBlend,
     /// Heights at which the edit ends, and whether it acts above each.
     limits: [Option<(f64, bool)>; 3],
     /// What it does to the bounds of heights. Conservative.
@@ -172,6 +173,7 @@ impl CompiledEdit {
             rough,
             stamp,
             reader,
+            blend: edit.blend,
             limits,
             range: tool.range(heights_m).then(Widening::by(ROUNDING_M, ROUNDING_M)),
             context: 0,
@@ -191,6 +193,7 @@ impl CompiledEdit {
         common.add_f64(self.core);
         common.add_f64(self.raggedness);
         common.add(u64::from(edit.seed));
+        common.add(self.blend as u64);
         for limit in self.limits {
             let (level_m, above) = limit.unwrap_or((f64::MAX, true));
             common.add_f64(level_m);
@@ -370,6 +373,14 @@ impl CompiledEdit {
         let mut change = self.tool.change(&at);
         for (level_m, above) in self.limits.into_iter().flatten() {
             change = limited(change, ground_m, level_m, above);
+        }
+        let stays = match self.blend {
+            EditBlend::Both => false,
+            EditBlend::Raise => change.change_m <= 0.0,
+            EditBlend::Lower => change.change_m >= 0.0,
+        };
+        if stays {
+            return None;
         }
         if change.change_m == 0.0 && change.by_t == 0.0 && change.by_ground == 0.0 && change.by_line == 0.0 {
             return None;
