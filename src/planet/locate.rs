@@ -344,7 +344,7 @@ pub(crate) fn offset(text: &str, line: usize, column: usize) -> usize {
     line_start + rest.char_indices().nth(column.saturating_sub(1)).map_or(rest.len(), |(i, _)| i)
 }
 
-/// The text of the token at an offset, shortened, for messages.
+/// The text of the token at an offset, shortened, for messages. Control characters, which command terminals, are escaped.
 pub(crate) fn excerpt(text: &str, offset: usize) -> String {
     const MOST_CHARS: usize = 40;
     let mut tokens = Tokens { text, at: offset };
@@ -353,11 +353,10 @@ pub(crate) fn excerpt(text: &str, offset: usize) -> String {
     }
     let token = text.get(offset..tokens.at).unwrap_or_default();
     let line = token.lines().next().unwrap_or_default();
-    if line.len() == token.len() && line.chars().count() <= MOST_CHARS {
-        format!("`{line}`")
-    } else {
-        format!("`{}…`", line.chars().take(MOST_CHARS).collect::<String>())
-    }
+    let plain = |c: char| -> String { if c.is_control() { c.escape_default().collect() } else { c.into() } };
+    let shown: String = line.chars().take(MOST_CHARS).map(plain).collect();
+    let is_whole = line.len() == token.len() && line.chars().count() <= MOST_CHARS;
+    format!("`{shown}{}`", if is_whole { "" } else { "…" })
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! - `preset`, `heightmap`, `nonsense`: files and values, good and bad
 //! - `idle`: parameters without effect
 //! - `header`: the C header
+//! - `fuzz`: changed files of strangers
 //! - `saving`: saves that are killed
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
@@ -16,6 +17,7 @@
 mod allocations;
 mod atmosphere;
 mod erosion;
+mod fuzz;
 mod header;
 mod heightmap;
 mod idle;
