@@ -57,8 +57,8 @@ fn jitter_of(pixel: vec2f) -> f32 {
     return fract((dot(place_from_axis(pixel), vec2f(3.0, 7.0)) + 0.5) / 9.0 + frame.noise_shift);
 }
 
-// Where in its pixel a ray is marched, pixels from the middle. Any 3x3 pixels together have a ray in each ninth, so that
-// their mean smooths the edges of clouds: it would only blur stairs between rays through the middles.
+// Where in its pixel a ray is marched, pixels from the middle. Any 3x3 pixels together have a ray in each ninth, so
+// that their mean smooths the edges of clouds: between rays through the middles it would only blur stairs.
 fn aside_of(pixel: vec2f) -> vec2f {
     // Carried over clouds are those of whole pixels, and the frames of a still picture have places of their own.
     if body.march_block > 1u || frame.still_number > 1u { return vec2f(0.0); }

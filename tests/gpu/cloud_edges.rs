@@ -7,9 +7,10 @@ use tellus::planet::{Clouds, Planet, Water};
 use tellus::sphere::LatLon;
 
 /// Clouds over a sea, before a black sky.
-fn cloudy(clouds: Clouds) -> Arc<Planet> {
-    let clouds = Clouds { altitude_km: 3.5, thickness_km: 2.6, density: 36.0, puff_km: 5.0, towers: 0.6, ..clouds };
-    let clouds = Clouds { rain: 0.0, middle: 0.0, veil: 0.0, fog: 0.0, ..clouds };
+fn cloudy(coverage: f64, layering: f64) -> Arc<Planet> {
+    let clear = Clouds { rain: 0.0, middle: 0.0, veil: 0.0, fog: 0.0, ..Clouds::default() };
+    let low = Clouds { altitude_km: 3.5, thickness_km: 2.6, density: 36.0, puff_km: 5.0, towers: 0.6, ..clear };
+    let clouds = Clouds { coverage, layering, ..low };
     let water = Some(Water { level_m: 10.0, ..Water::default() });
     Arc::new(Planet { clouds: Some(clouds), water, atmosphere: None, layers: Vec::new(), ..Planet::default() })
 }
@@ -38,7 +39,7 @@ fn camera(planet: &Planet, altitude_m: f64, heading: f64, pitch: f64, fov: f64) 
 /// middles of pixels a whole row crosses it at once, and where it is nearly level it is a staircase.
 #[test]
 fn clouds_end_at_the_horizon_without_stairs() {
-    let planet = cloudy(Clouds { coverage: 1.0, layering: 1.0, ..Clouds::default() });
+    let planet = cloudy(1.0, 1.0);
     let mut gpu = gpu();
     let fov = Camera::DEFAULT_FOV_Y_RAD.to_degrees();
     for (quality, scale) in [(Quality::Low, 2.0), (Quality::Medium, 1.0)] {
@@ -63,7 +64,7 @@ fn clouds_end_at_the_horizon_without_stairs() {
 /// lines that are brighter or darker than what is above and below.
 #[test]
 fn clouds_near_the_horizon_have_no_stripes() {
-    let planet = cloudy(Clouds { coverage: 0.15, layering: -1.0, ..Clouds::default() });
+    let planet = cloudy(0.15, -1.0);
     let mut gpu = gpu();
     let width = SIZE_PX[0] as usize;
     let mut striped = 0;
