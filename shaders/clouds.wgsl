@@ -26,14 +26,6 @@ const RELIEF: f32 = 0.5;
 const RELIEF_LEAST_SUN: f32 = 0.15;
 const RELIEF_LIMITS: vec2f = vec2f(0.3, 1.5);
 
-// Distance in km after `number` steps of a march that starts within the layer. The steps are the same in all directions
-// and grow by a constant ratio. Steps that depend on the distance to the far end would be longest along the horizon and
-// show as a line there.
-fn grown_km(layer: CloudLayer, number: f32) -> f32 {
-    let ratio = layer.stride.y;
-    return layer.stride.x * (pow(ratio, number) - 1.0) / (ratio - 1.0);
-}
-
 // How much steps through rain grow, 0 to 1.
 const RAIN_BEND: f32 = 0.2;
 // Share of the light under clouds that is left where it rains: there the clouds are thicker than their mean.
@@ -65,6 +57,16 @@ fn jitter_of(pixel: vec2f) -> f32 {
     return fract((dot(place_from_axis(pixel), vec2f(3.0, 7.0)) + 0.5) / 9.0 + frame.noise_shift);
 }
 
+// Where in its pixel a ray is marched, pixels from the middle. Any 3x3 pixels together have a ray in each ninth, so
+// that their mean smooths the edges of clouds: between rays through the middles it would only blur stairs.
+fn aside_of(pixel: vec2f) -> vec2f {
+    // Carried over clouds are those of whole pixels, the frames of a still picture have places of their own, and from afar
+    // the maps are blurred to pixels already.
+    if body.march_block > 1u || frame.still_number > 1u || body.cloud_is_far != 0u { return vec2f(0.0); }
+    let place = place_from_axis(pixel);
+    return (place.yx - 3.0 * floor(place.yx / 3.0) - 1.0) / 3.0;
+}
+
 // Density below which there is no cloud.
 const LEAST_DENSITY: f32 = 0.004;
 // Width of what a step resolves, in steps.
@@ -86,7 +88,59 @@ struct Way {
     eye_mu: f32,
     from_km: f32,
     to_km: f32,
+    // Way in the layer to its other side, or to the lowest point of a ray that leaves it by the side where it entered
+    turn_km: f32,
     layer: u32,
+}
+
+// The steps of a ray through a layer.
+struct Grid {
+    // Distance of bound `i`: base_km + scale_km * (exp2((first + i) * growth) - 1), mixed with even steps
+    base_km: f32,
+    scale_km: f32,
+    growth: f32,
+    first: f32,
+    // Length and share of even steps
+    even_km: f32,
+    even_share: f32,
+    // Length of a step over its distance plus scale_km, by which the density is blurred
+    wanted: f32,
+    // Where light reaches the layer
+    middle_km: f32,
+}
+
+// From within the layer, steps are the same in all directions and grow by a constant ratio. Those that depend on the
+// distance to the far end would be longest along the horizon and show as a line there. From outside, the ratio is less
+// by a power of two, so that the way has about as many steps in each direction. Bounds are at the same distances in
+// neighbouring pixels, wherever these enter the layer: else whole rows of pixels would sample clouds at one distance,
+// and show them in stripes.
+fn grid_of(layer: CloudLayer, way: Way) -> Grid {
+    let span = way.to_km - way.from_km;
+    let ratio = log2(layer.stride.y);
+    let scale_km = layer.stride.x / (layer.stride.y - 1.0);
+    let near = way.turn_km / (way.turn_km + way.from_km + 1e-6);
+    let middle_km = mix(0.5 * span, min(scale_km * (exp2(0.4 * layer.steps * ratio) - 1.0), span), near);
+    var grid = Grid(0.0, scale_km, ratio, 0.0, 0.0, 0.0, 0.0, way.from_km + middle_km);
+    if layer.stride.w > 0.0 {
+        grid.even_km = way.turn_km / layer.steps;
+        grid.even_share = 1.0;
+    } else if way.layer == RAIN_LAYER {
+        grid.base_km = way.from_km;
+        grid.even_km = span / layer.steps;
+        grid.even_share = 1.0 - RAIN_BEND;
+    } else {
+        let count = mix(layer.steps, log2(1.0 + way.turn_km / scale_km) / ratio, near);
+        grid.wanted = log2(1.0 + way.turn_km / (way.from_km + scale_km)) / count;
+        grid.growth = ratio * exp2(-max(round(log2(ratio / grid.wanted)), 0.0));
+        grid.first = floor(log2(1.0 + way.from_km / scale_km) / grid.growth);
+    }
+    return grid;
+}
+
+fn bound_km(grid: Grid, way: Way, number: f32) -> f32 {
+    let grown = grid.base_km + grid.scale_km * (exp2((grid.first + number) * grid.growth) - 1.0);
+    let even = way.from_km + number * grid.even_km;
+    return min(mix(clamp(grown, way.from_km, way.to_km), even, grid.even_share), way.to_km);
 }
 
 fn height_in_layer(way: Way, at_km: f32) -> f32 {
@@ -118,18 +172,14 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     var out = into;
     let layer = body.cloud_layers[way.layer];
     let dir = way.dir;
-    let from_km = way.from_km;
     let bottom = layer.bottom_km;
     let thickness = layer.top_km - bottom;
     let sun = active_sun.dir;
-    let steps = layer.steps;
-    let span = way.to_km - from_km;
-    // Even steps from afar, growing steps from within the layer. Few growing steps would pass over distant rain.
-    let bend = select(span / (span + from_km + 1e-6), RAIN_BEND, way.layer == RAIN_LAYER);
+    let grid = grid_of(layer, way);
     let extinction = layer.optical_depth / thickness;
 
     // Light that reaches the layer at the middle of the segment; it varies little along the ray.
-    let middle = dir * (from_km + mix(0.5 * span, min(grown_km(layer, 0.4 * steps), span), bend));
+    let middle = dir * grid.middle_km;
     let up = normalize(body.eye_km + middle);
     let sun_mu = dot(up, sun);
     let sunlight = active_sun.irradiance * sun_transmittance(bottom + thickness * 0.7, sun_mu);
@@ -150,16 +200,21 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     let high = max(sun_mu, 0.0) + 0.02;
     let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
-    var before = from_km;
+    var before = way.from_km;
     var was_empty = true;
-    for (var i = 0.0; i < steps; i += 1.0) {
-        let t0 = from_km + mix(i / steps * span, min(grown_km(layer, i), span), bend);
-        let t1 = from_km + mix((i + 1.0) / steps * span, min(grown_km(layer, i + 1.0), span), bend);
-        let t = from_km + mix((i + jitter) / steps * span, min(grown_km(layer, i + jitter), span), bend);
-        if t1 <= t0 { break; }
+    // A ray that leaves the layer by the side where it entered has twice the way, and the grid up to half as many more.
+    let most = layer.steps * select(3.0, 1.0, way.layer == RAIN_LAYER);
+    for (var i = 0.0; i < most; i += 1.0) {
+        let t0 = bound_km(grid, way, i);
+        let t1 = bound_km(grid, way, i + 1.0);
+        if t0 >= way.to_km { break; }
+        if t1 <= t0 { continue; }
+        let t = mix(t0, t1, jitter);
+        // Steps at the ends are cut short, and blur no less.
+        let step_km = max(t1 - t0, (t + grid.scale_km) * (exp2(grid.wanted) - 1.0));
         let sky_here = sky_over(normalize(body.eye_km + dir * t), t * frame.pixel_rad);
         var found = Cloud(0.0, 0.0);
-        if sky_here.covers[way.layer] > 0.0 { found = cloud_on(way, t, sky_here, t1 - t0); }
+        if sky_here.covers[way.layer] > 0.0 { found = cloud_on(way, t, sky_here, step_km); }
         if found.density <= LEAST_DENSITY {
             before = t;
             was_empty = true;
@@ -306,7 +361,7 @@ fn marched_pixel(texel: vec2f) -> vec2f {
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> Output {
     let pixel = marched_pixel(position.xy);
-    let ray = pixel_ray(pixel);
+    let ray = pixel_ray(pixel + aside_of(pixel));
     let ray_length = length(ray);
     let dir = ray / ray_length;
     let far = surface_distance(vec2i(pixel), ray_length);
@@ -314,8 +369,8 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     let h = body.eye_altitude_km;
     let mu = dot(dir, body.eye_up);
     // Ways through the layers in the order of the ray: down from the highest layer, then up from the lowest. x and y:
-    // from and to, km; z: layer.
-    var ways: array<vec3f, 2u * CLOUD_LAYERS>;
+    // from and to, km; z: turn_km; w: layer.
+    var ways: array<vec4f, 2u * CLOUD_LAYERS>;
     var count = 0u;
     for (var i = 0u; i < 2u * CLOUD_LAYERS; i++) {
         let is_down = i < CLOUD_LAYERS;
@@ -333,7 +388,9 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         let from_km = select(inner.y, max(outer.x, 0.0), is_down);
         let to_km = min(select(outer.y, inner.x, is_down && rises), far);
         if to_km > from_km {
-            ways[count] = vec3f(from_km, to_km, f32(number));
+            // A ray that misses the bottom of the layer is lowest where it is level.
+            let turn_km = select(outer.y, select(-(radius + h) * mu, inner.x, rises), is_down) - from_km;
+            ways[count] = vec4f(from_km, to_km, max(turn_km, 0.01), f32(number));
             count += 1u;
         }
     }
@@ -345,7 +402,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         use_sun(i);
         state = March(vec3f(0.0), 1.0, 0.0, 0.0);
         for (var k = 0u; k < count && state.transmittance > 0.0; k++) {
-            state = march(state, Way(dir, mu, ways[k].x, ways[k].y, u32(ways[k].z)), jitter);
+            state = march(state, Way(dir, mu, ways[k].x, ways[k].y, ways[k].z, u32(ways[k].w)), jitter);
         }
         light += state.light;
     }

@@ -1,39 +1,59 @@
-// LUT of light that air scatters for a second time or more, by direction: a tile for each direction, with the columns
-// and rows of the multiple-scattering LUT. The moments in that LUT suffice for light that is scattered on, but not for
-// what dust scatters to the eye, so here the light seen from all around is summed with the exact phase functions.
+// LUT of light that air scatters for a second time or more, by direction: a tile for each node of the cosine to the
+// zenith (across) and each half of the azimuths (down), and a layer for each azimuth in it, with the columns and rows
+// of the multiple-scattering LUT. The moments in that LUT suffice for light that is scattered on, but not for what
+// dust scatters to the eye, so here the light seen from all around is summed with the exact phase functions.
 #include "screen.wgsl"
 #include "glow_model.wgsl"
 
 // Stands in the place of the LUT of the sky
-@group(1) @binding(3) var seen_lut: texture_2d<f32>;
+@group(1) @binding(2) var seen_lut: texture_2d_array<f32>;
 
 // Light seen by the point of a pixel of the multiple-scattering LUT, scattered once more. The sum is divided by that
 // over even light: directions are too far apart to resolve a sharp phase function. `shares`: of molecules and haze in
-// all scattering are `by_rayleigh` and 1 - `by_rayleigh`.
-fn rescattered(pixel: vec2i, h: f32, by_rayleigh: vec3f, mu: f32, turn: f32) -> vec3f {
+// all scattering are `by_rayleigh` and 1 - `by_rayleigh`. `turns` and `sines`: cosines and sines of the azimuths.
+fn rescattered(pixel: vec2i, h: f32, by_rayleigh: vec3f, mu: f32, turns: vec3f, sines: vec3f) -> Lights {
     // Factors of the phase functions that do not depend on the direction cancel.
     let g = body.mie_anisotropy;
     let across = flat_of(mu);
-    let azimuth = vec2f(turn, flat_of(turn));
-    var rayleigh = vec4f(0.0);
-    var mie = vec4f(0.0);
+    // For each colour and for even light: sums of the three azimuths
+    var rayleigh = mat4x3f();
+    var mie = mat4x3f();
     for (var i = 0u; i < SEEN_RINGS; i++) {
         let ring = seen_ring(h, i);
         let along = mu * ring.mu;
         let both_across = across * flat_of(ring.mu);
         for (var k = 0u; k < SEEN_TURNS; k++) {
-            let root = textureLoad(seen_lut, pixel + vec2i(vec2u(k, i)) * vec2i(MULTISCATTER_SIZE), 0).rgb;
-            let light = vec4f(root * root, 1.0) * ring.share;
+            let tile = vec2i(vec2u(i, k / TURNS_AT_ONCE)) * vec2i(MULTISCATTER_SIZE);
+            let root = textureLoad(seen_lut, pixel + tile, i32(k % TURNS_AT_ONCE), 0).rgb;
+            let light = root * root * ring.share;
             // The direction and its mirror image
-            let turns = azimuth * SEEN_AZIMUTHS[k];
-            let cosines = along + both_across * vec2f(turns.x - turns.y, turns.x + turns.y);
-            let even = 1.0 + cosines * cosines;
-            let base = inverseSqrt(max(1.0 + g * g - 2.0 * g * cosines, vec2f(1e-6)));
-            rayleigh += light * (even.x + even.y);
-            mie += light * dot(even, base * base * base);
+            let azimuth = SEEN_AZIMUTHS[k] * both_across;
+            let middle = along + turns * azimuth.x;
+            let aside = sines * azimuth.y;
+            let one = middle - aside;
+            let other = middle + aside;
+            let even = 1.0 + one * one;
+            let other_even = 1.0 + other * other;
+            let base = inverseSqrt(max(1.0 + g * g - 2.0 * g * one, vec3f(1e-6)));
+            let other_base = inverseSqrt(max(1.0 + g * g - 2.0 * g * other, vec3f(1e-6)));
+            let by_molecules = even + other_even;
+            let by_haze = even * (base * base * base) + other_even * (other_base * other_base * other_base);
+            rayleigh[0] += light.r * by_molecules;
+            rayleigh[1] += light.g * by_molecules;
+            rayleigh[2] += light.b * by_molecules;
+            rayleigh[3] += ring.share * by_molecules;
+            mie[0] += light.r * by_haze;
+            mie[1] += light.g * by_haze;
+            mie[2] += light.b * by_haze;
+            mie[3] += ring.share * by_haze;
         }
     }
-    return mix(mie.rgb / mie.a, rayleigh.rgb / rayleigh.a, by_rayleigh) / MULTISCATTER_SCALE;
+    let red = mix(mie[0] / mie[3], rayleigh[0] / rayleigh[3], by_rayleigh.r) / MULTISCATTER_SCALE;
+    let green = mix(mie[1] / mie[3], rayleigh[1] / rayleigh[3], by_rayleigh.g) / MULTISCATTER_SCALE;
+    let blue = mix(mie[2] / mie[3], rayleigh[2] / rayleigh[3], by_rayleigh.b) / MULTISCATTER_SCALE;
+    return Lights(
+        vec3f(red.x, green.x, blue.x), vec3f(red.y, green.y, blue.y), vec3f(red.z, green.z, blue.z),
+    );
 }
 
 // The same by moments, and what the peak of haze has added to the beam.
@@ -46,24 +66,28 @@ fn by_moments(h: f32, sun_mu: f32, by_rayleigh: vec3f, mu: f32, cosine: f32) -> 
 }
 
 @fragment
-fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+fn fragment(@builtin(position) position: vec4f) -> Turns {
     set_lut_sun();
     let place = tiled(position);
     let at = point_of_texel(place.pixel);
-    if all_is_dark(at.x, at.y) { return vec4f(0.0); }
-    let nodes = vec2f(place.tile) / (GLOW_TILES - 1.0);
-    let mu = view_cosine_at(nodes.x);
-    let turn = 1.0 - 2.0 * nodes.y * nodes.y;
+    var none: Turns;
+    if all_is_dark(at.x, at.y) { return none; }
+    let mu = view_cosine_at(f32(place.tile.x) / (GLOW_NODES.x - 1.0));
+    let nodes = (f32(TURNS_AT_ONCE * place.tile.y) + vec3f(0.0, 1.0, 2.0)) / (GLOW_NODES.y - 1.0);
+    let turns = vec3f(turn_at(nodes.x), turn_at(nodes.y), turn_at(nodes.z));
     let air = air_at(at.x);
     let by_rayleigh = air.rayleigh / max(air.rayleigh + air.mie, vec3f(1e-30));
     let moments = share_of_moments(at.y);
-    var light = vec3f(0.0);
+    var light: Lights;
     if moments < 1.0 {
-        light += (1.0 - moments) * rescattered(vec2i(place.pixel.xy), at.x, by_rayleigh, mu, turn);
+        let sines = sqrt(max(vec3f(0.0), 1.0 - turns * turns));
+        light = rescattered(vec2i(place.pixel.xy), at.x, by_rayleigh, mu, turns, sines);
     }
     if moments > 0.0 {
-        let cosine = mu * at.y + flat_of(mu) * flat_of(at.y) * turn;
-        light += moments * by_moments(at.x, at.y, by_rayleigh, mu, cosine);
+        let cosines = mu * at.y + flat_of(mu) * flat_of(at.y) * turns;
+        light.first = mix(light.first, by_moments(at.x, at.y, by_rayleigh, mu, cosines.x), moments);
+        light.second = mix(light.second, by_moments(at.x, at.y, by_rayleigh, mu, cosines.y), moments);
+        light.third = mix(light.third, by_moments(at.x, at.y, by_rayleigh, mu, cosines.z), moments);
     }
-    return vec4f(sqrt(light * MULTISCATTER_SCALE), 1.0);
+    return turns_of(light);
 }

@@ -1,16 +1,17 @@
 // What the passes of light that air scatters again have in common: directions of the light that a point sees, in tiles
-// of a texture. Each tile has the columns and rows of the multiple-scattering LUT. As in src/atmosphere/glow.rs.
+// of a texture. Each tile has the columns and rows of the multiple-scattering LUT. Directions that differ in azimuth
+// share much of the work: a fragment draws TURNS_AT_ONCE of them into as many layers, and the two rows of tiles have
+// the halves of all azimuths. As in src/atmosphere/glow.rs.
 #include "gather.wgsl"
 
-const SEEN_UPPER: u32 = 6u;
+const SEEN_UPPER: u32 = 5u;
 // Gauss-Legendre nodes between the horizon (0) and zenith or nadir (1), with their weights
-const SEEN_NODES: array<vec2f, 8> = array<vec2f, 8>(
-    vec2f(0.0337652429, 0.0856622462),
-    vec2f(0.1693953068, 0.1803807865),
-    vec2f(0.3806904070, 0.2339569673),
-    vec2f(0.6193095930, 0.2339569673),
-    vec2f(0.8306046932, 0.1803807865),
-    vec2f(0.9662347571, 0.0856622462),
+const SEEN_NODES: array<vec2f, SEEN_RINGS> = array<vec2f, SEEN_RINGS>(
+    vec2f(0.0469100770, 0.1184634425),
+    vec2f(0.2307653449, 0.2393143352),
+    vec2f(0.5, 0.2844444444),
+    vec2f(0.7692346551, 0.2393143352),
+    vec2f(0.9530899230, 0.1184634425),
     vec2f(0.2113248654, 0.5),
     vec2f(0.7886751346, 0.5),
 );
@@ -58,4 +59,22 @@ struct Tiled {
 fn tiled(pixel: vec4f) -> Tiled {
     let tile = floor(pixel.xy / MULTISCATTER_SIZE);
     return Tiled(vec4f(pixel.xy - tile * MULTISCATTER_SIZE, 0.0, 1.0), vec2u(tile));
+}
+
+// Square roots of the light of the azimuths that a fragment draws, as in the multiple-scattering LUT.
+struct Turns {
+    @location(0) first: vec4f,
+    @location(1) second: vec4f,
+    @location(2) third: vec4f,
+}
+
+fn root_of(light: vec3f) -> vec4f { return vec4f(sqrt(max(light, vec3f(0.0)) * MULTISCATTER_SCALE), 1.0); }
+
+fn turns_of(light: Lights) -> Turns { return Turns(root_of(light.first), root_of(light.second), root_of(light.third)); }
+
+// Light of these azimuths. Members, as software drivers are slow at arrays.
+struct Lights {
+    first: vec3f,
+    second: vec3f,
+    third: vec3f,
 }

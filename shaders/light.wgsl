@@ -125,30 +125,39 @@ fn view_cosine_at(unit: f32) -> f32 {
     return select(-mu, mu, unit >= 0.5);
 }
 
+// Where an azimuth from the sun lies between the sun's (0) and the opposite one (1) in the LUT, by its cosine.
+fn unit_of_turn(turn: f32) -> f32 { return pow(max(0.5 - 0.5 * turn, 0.0), 0.6); }
+
+// The inverse of unit_of_turn.
+fn turn_at(unit: f32) -> f32 { return 1.0 - 2.0 * pow(unit, 1.0 / 0.6); }
+
 // Radiance that air scatters for a second time or more, per scattering coefficient of all air, for unit irradiance.
 // `mu` and `cosine`: cosines of the ray to the zenith and to the sun.
 fn scattered_again(h: f32, sun_mu: f32, mu: f32, cosine: f32) -> vec3f {
     let across = sqrt(max(0.0, (1.0 - mu * mu) * (1.0 - sun_mu * sun_mu)));
     let turn = clamp((cosine - mu * sun_mu) / max(across, 1e-6), -1.0, 1.0);
-    let node = vec2f(unit_of_view(mu), sqrt(0.5 - 0.5 * turn)) * (GLOW_TILES - 1.0);
-    let first = clamp(floor(node), vec2f(0.0), GLOW_TILES - 2.0);
+    let node = vec2f(unit_of_view(mu), unit_of_turn(turn)) * (GLOW_NODES - 1.0);
+    let first = clamp(floor(node), vec2f(0.0), GLOW_NODES - 2.0);
     let part = node - first;
-    let size = GLOW_TILES * MULTISCATTER_SIZE;
-    let x = vec2f(unit_of_sun(sun_mu), sqrt(saturate1(h / body.air_height_km)));
-    let at = (clamp(x, vec2f(0.0), vec2f(1.0)) * (MULTISCATTER_SIZE - 1.0) + 0.5 + first * MULTISCATTER_SIZE) / size;
-    let next = 1.0 / GLOW_TILES;
-    let near = mix(
-        textureSampleLevel(glow_lut, clamped, at, 0, 0.0).rgb,
-        textureSampleLevel(glow_lut, clamped, at + vec2f(next.x, 0.0), 0, 0.0).rgb,
-        part.x,
-    );
-    let far = mix(
-        textureSampleLevel(glow_lut, clamped, at + vec2f(0.0, next.y), 0, 0.0).rgb,
-        textureSampleLevel(glow_lut, clamped, at + next, 0, 0.0).rgb,
-        part.x,
-    );
-    let root = mix(near, far, part.y);
+    let x = clamp(vec2f(unit_of_sun(sun_mu), sqrt(saturate1(h / body.air_height_km))), vec2f(0.0), vec2f(1.0));
+    let at = x * (MULTISCATTER_SIZE - 1.0) + 0.5;
+    let turn_node = u32(first.y);
+    let nearer = glow_of_turn(at, first.x, part.x, turn_node);
+    let root = mix(nearer, glow_of_turn(at, first.x, part.x, turn_node + 1u), part.y);
     return root * root / MULTISCATTER_SCALE;
+}
+
+// Square root of that light at a node of the azimuth, between two nodes of the cosine to the zenith. `at`: texel in a
+// tile.
+fn glow_of_turn(at: vec2f, view: f32, part: f32, turn: u32) -> vec3f {
+    let size = vec2f(GLOW_NODES.x, f32(GLOW_HALVES)) * MULTISCATTER_SIZE;
+    let uv = (at + vec2f(view, f32(turn / TURNS_AT_ONCE)) * MULTISCATTER_SIZE) / size;
+    let layer = i32(turn % TURNS_AT_ONCE);
+    return mix(
+        textureSampleLevel(glow_lut, clamped, uv, layer, 0.0).rgb,
+        textureSampleLevel(glow_lut, clamped, uv + vec2f(1.0 / GLOW_NODES.x, 0.0), layer, 0.0).rgb,
+        part,
+    );
 }
 
 // Radiance of the night sky: mean over stars, dust and airglow. Sunlit white ground has radiance 1. On the Earth,
@@ -160,13 +169,18 @@ const NIGHT_SKY: vec3f = vec3f(0.85e-5, 1.0e-5, 1.3e-5);
 const NIGHT_BACKGROUND: f32 = 0.2;
 const NIGHT_AIRGLOW: f32 = 0.7;
 
+// Texture coordinates of a part of the LUT of the sky. `first`: its first column.
+fn sky_uv(x: vec2f, size: vec2f, first: f32) -> vec2f {
+    return (x * (size - 1.0) + vec2f(first, 0.0) + 0.5) / SKY_LUT_SIZE;
+}
+
 // Irradiance of the sky on level ground.
 fn sky_irradiance(h: f32, mu: f32) -> vec3f {
     // Night light counts once, however many suns there are.
     let night = select(vec3f(0.0), PI * NIGHT_SKY, is_first_sun);
     if body.air_height_km <= 0.0 { return night; }
     let x = vec2f(unit_of_sun(mu), sqrt(saturate1(h / body.air_height_km)));
-    let table = textureSampleLevel(irradiance_lut, clamped, texel_from_unit(x, IRRADIANCE_SIZE), 0.0).rgb;
+    let table = textureSampleLevel(sky_lut, clamped, sky_uv(x, IRRADIANCE_SIZE, IRRADIANCE_AT), 0, 0.0).rgb;
     return table * active_sun.irradiance + night;
 }
 
@@ -175,6 +189,6 @@ fn sky_radiance(view_mu: f32, sun_mu: f32) -> vec3f {
     let night = select(vec3f(0.0), NIGHT_SKY, is_first_sun);
     if body.air_height_km <= 0.0 { return night; }
     let x = vec2f(unit_of_sun(sun_mu), sqrt(saturate1(view_mu)));
-    let table = textureSampleLevel(sky_lut, clamped, texel_from_unit(x, SKY_SIZE), 0.0).rgb;
+    let table = textureSampleLevel(sky_lut, clamped, sky_uv(x, SKY_SIZE, SKY_AT), 0, 0.0).rgb;
     return table * active_sun.irradiance + night;
 }

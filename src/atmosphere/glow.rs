@@ -17,16 +17,17 @@ use std::f64::consts::PI;
 
 /// Nodes along the zenith angle of the direction of scattering, and along its azimuth from the sun, as in the shaders.
 const VIEWS: usize = 9;
-const TURNS: usize = 5;
+const TURNS: usize = 6;
+/// A node's place is this power of the squared sine of half its azimuth.
+const TURN_POWER: f64 = 0.6;
 /// Directions of the light that a point sees: Gauss-Legendre nodes between the horizon (0) and zenith or nadir (1) with
 /// their weights, and azimuths from the sun. The other half of the sphere is the mirror image.
-const UPPER: [(f64, f64); 6] = [
-    (0.033_765_242_898_424, 0.085_662_246_189_585),
-    (0.169_395_306_766_868, 0.180_380_786_524_069),
-    (0.380_690_406_958_402, 0.233_956_967_286_346),
-    (0.619_309_593_041_598, 0.233_956_967_286_346),
-    (0.830_604_693_233_132, 0.180_380_786_524_069),
-    (0.966_234_757_101_576, 0.085_662_246_189_585),
+const UPPER: [(f64, f64); 5] = [
+    (0.046_910_077_030_668, 0.118_463_442_528_095),
+    (0.230_765_344_947_158, 0.239_314_335_249_683),
+    (0.5, 0.284_444_444_444_444),
+    (0.769_234_655_052_842, 0.239_314_335_249_683),
+    (0.953_089_922_969_332, 0.118_463_442_528_095),
 ];
 const LOWER: [(f64, f64); 2] = [(0.211_324_865_405_187, 0.5), (0.788_675_134_594_813, 0.5)];
 const SEEN_TURNS: usize = 6;
@@ -86,7 +87,7 @@ impl GlowLut {
         let across = flat(to.mu) * flat(sun_mu);
         let turn = ((to.cosine - to.mu * sun_mu) / across.max(1e-6)).clamp(-1.0, 1.0);
         let view = unit_of_view(to.mu) * (VIEWS - 1) as f64;
-        let turn = (0.5 - 0.5 * turn).sqrt() * (TURNS - 1) as f64;
+        let turn = (0.5 - 0.5 * turn).max(0.0).powf(TURN_POWER) * (TURNS - 1) as f64;
         let (i, j) = ((view as usize).min(VIEWS - 2), (turn as usize).min(TURNS - 2));
         let (u, v) = (view - i as f64, turn - j as f64);
         let root = super::depth::bilinear(x, y, COLUMNS, ROWS, |texel| {
@@ -108,10 +109,9 @@ fn view_mu(unit: f64) -> f64 {
     (1.0 - from_pole * from_pole).copysign(unit - 0.5)
 }
 
-/// Cosine of the azimuth of a node: nodes are even in the sine of half the azimuth, densest towards the sun.
+/// Cosine of the azimuth of a node: nodes are densest towards the sun.
 fn cosine_of_turn(node: usize) -> f64 {
-    let sine = node as f64 / (TURNS - 1) as f64;
-    1.0 - 2.0 * sine * sine
+    1.0 - 2.0 * (node as f64 / (TURNS - 1) as f64).powf(1.0 / TURN_POWER)
 }
 
 /// The light that a point sees from all around.

@@ -12,7 +12,7 @@ use super::gpu::{self, Slot};
 use super::material_maps::MaterialMaps;
 use super::scene::Scene;
 use super::screen_pass::Shared;
-use super::shared::{GLOW_TILES, IRRADIANCE_SIZE, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SEEN_TILES, SKY_SIZE};
+use super::shared::{GLOW_NODES, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SEEN_NODES, SKY_LUT_SIZE, TURNS_AT_ONCE};
 use super::targets::RADIANCE_FORMAT;
 use super::{RenderError, noise_tile, shaders};
 use crate::planet::{Biomes, Key};
@@ -26,27 +26,26 @@ const MULTISCATTER: usize = 1;
 const OTHER_MULTISCATTER: usize = 2;
 const SEEN: usize = 3;
 const GLOW: usize = 4;
-const IRRADIANCE: usize = 5;
-const SKY: usize = 6;
+const SKY: usize = 5;
 /// Name, size and number of layers of each; `None`: no layers.
-const AIR_LUTS: [(&str, [u32; 2], Option<u32>); 7] = [
+const AIR_LUTS: [(&str, [u32; 2], Option<u32>); 6] = [
     ("optical depth", OPTICAL_DEPTH_SIZE, None),
     ("multiscatter", MULTISCATTER_SIZE, Some(4)),
     ("other multiscatter", MULTISCATTER_SIZE, Some(4)),
-    ("seen", tiled(SEEN_TILES), None),
-    ("glow", tiled(GLOW_TILES), Some(1)),
-    ("irradiance", IRRADIANCE_SIZE, None),
-    ("sky", SKY_SIZE, None),
+    ("seen", tiled(SEEN_NODES), Some(TURNS_AT_ONCE)),
+    ("glow", tiled(GLOW_NODES), Some(TURNS_AT_ONCE)),
+    ("sky", SKY_LUT_SIZE, Some(1)),
 ];
 /// What a pass may read besides optical depth: the LUTs in the places of multiple scattering and of the sky.
-const READ: [[usize; 2]; 4] = [[MULTISCATTER, DEPTH], [OTHER_MULTISCATTER, DEPTH], [MULTISCATTER, SEEN], [GLOW, DEPTH]];
+/// A texture must not be bound while it is drawn, so others stand in.
+const READ: [[usize; 2]; 4] = [[MULTISCATTER, GLOW], [OTHER_MULTISCATTER, GLOW], [MULTISCATTER, SEEN], [GLOW, SEEN]];
 const READ_MULTISCATTER: Option<usize> = Some(0);
 const READ_OTHER: Option<usize> = Some(1);
 const READ_SEEN: Option<usize> = Some(2);
 const READ_GLOW: Option<usize> = Some(3);
 /// The passes that draw them, in order: shader, the LUT drawn, and for shaders that read LUTs, the index into [`READ`].
 /// Each correction of multiple scattering reads one LUT and draws the other.
-const AIR_PASSES: [(&str, usize, Option<usize>); 10] = [
+const AIR_PASSES: [(&str, usize, Option<usize>); 9] = [
     ("optical_depth.wgsl", DEPTH, None),
     ("multiscatter_guess.wgsl", MULTISCATTER, READ_OTHER),
     ("multiscatter_first.wgsl", OTHER_MULTISCATTER, READ_MULTISCATTER),
@@ -55,15 +54,14 @@ const AIR_PASSES: [(&str, usize, Option<usize>); 10] = [
     ("multiscatter.wgsl", MULTISCATTER, READ_OTHER),
     ("seen.wgsl", SEEN, READ_MULTISCATTER),
     ("glow.wgsl", GLOW, READ_SEEN),
-    ("irradiance.wgsl", IRRADIANCE, READ_GLOW),
     ("sky.wgsl", SKY, READ_GLOW),
 ];
 /// The first pass of each key: optical depth, scattered light.
 const FIRST_OF_KEY: [usize; 2] = [0, 1];
 
-/// Size of a LUT of tiles.
-const fn tiled(tiles: [u32; 2]) -> [u32; 2] {
-    [tiles[0] * MULTISCATTER_SIZE[0], tiles[1] * MULTISCATTER_SIZE[1]]
+/// Size of a LUT of tiles, by its elevations and azimuths.
+const fn tiled(nodes: [u32; 2]) -> [u32; 2] {
+    [nodes[0] * MULTISCATTER_SIZE[0], nodes[1] / TURNS_AT_ONCE * MULTISCATTER_SIZE[1]]
 }
 
 /// Number of times that each texture of a body, and its uniforms, have been written since the start.
@@ -94,7 +92,7 @@ pub(crate) struct Patterns {
 impl Patterns {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         use Slot::{Cube, CubeArray, Float2d, Float2dArray, Float3d, Unfiltered2d};
-        let air = [Float2d, Float2dArray, Float2d, Float2d];
+        let air = [Float2d, Float2dArray, Float2dArray];
         let rest = [CubeArray, Float3d, Unfiltered2d, Unfiltered2d, Float2dArray, Float2dArray, Float3d, Cube];
         Self {
             noise: [noise_tile::upload(device, queue), border_tile::upload(device, queue)],
@@ -331,17 +329,13 @@ impl Groups {
         biomes: &BiomeTextures,
     ) -> Self {
         let (noise, materials) = (&patterns.noise, &patterns.materials);
-        let bind = |slots: [usize; 4]| {
+        let bind = |slots: [usize; 3]| {
             let air = slots.into_iter().map(|i| &air[i].all);
             let (ids, params) = (&biomes.ids, &biomes.params);
             let rest = [clouds, &noise[0], ids, params, &materials.tint, &materials.surface, &noise[1], map_picture];
             let views = air.chain(rest).map(wgpu::BindingResource::TextureView);
             gpu::group(device, "LUTs", &patterns.layout, views)
         };
-        // A texture must not be bound while it is drawn, so optical depth stands in for the light of the sky.
-        Self {
-            all: bind([DEPTH, GLOW, IRRADIANCE, SKY]),
-            air: READ.map(|[scattered, other]| bind([DEPTH, scattered, DEPTH, other])),
-        }
+        Self { all: bind([DEPTH, GLOW, SKY]), air: READ.map(|[scattered, other]| bind([DEPTH, scattered, other])) }
     }
 }

@@ -5,6 +5,7 @@
 //! - `albedo`: what grounds, seas and clouds reflect, from orbit
 //! - `biomes`, `colours`, `materials`: the colours of the ground
 //! - `clouds`: clouds over time, drafts of their maps
+//! - `cloud_edges`: clouds near the horizon: stairs and stripes
 //! - `lakes`: water of planets with a structure
 //! - `neighbours`: shadows and light between bodies, rings
 //! - `night`: aurora, lights of settlements
@@ -21,6 +22,7 @@
 mod air;
 mod albedo;
 mod biomes;
+mod cloud_edges;
 mod clouds;
 mod colours;
 mod edges;

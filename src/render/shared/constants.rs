@@ -62,12 +62,18 @@ pub(crate) const SHOWN_BYTES: u64 = 4 * 4;
 /// Size of each LUT of the air, texels.
 pub(crate) const OPTICAL_DEPTH_SIZE: [u32; 2] = [256, 64];
 pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 16];
-/// Tiles of the multiple-scattering LUT's size in the LUTs by direction. Light that a point sees: azimuths, and rings
-/// of equal elevation; light that air scatters again: cosines to the zenith, and azimuths.
-pub(crate) const SEEN_TILES: [u32; 2] = [6, 8];
-pub(crate) const GLOW_TILES: [u32; 2] = [9, 5];
+/// The LUTs by direction have tiles of the multiple-scattering LUT's size: across, one for each elevation; down, one for
+/// each group of azimuths, which are the layers.
+pub(crate) const TURNS_AT_ONCE: u32 = 3;
+/// Elevations and azimuths of the light that a point sees, and of the light that air scatters again.
+pub(crate) const SEEN_NODES: [u32; 2] = [7, 2 * TURNS_AT_ONCE];
+pub(crate) const GLOW_NODES: [u32; 2] = [9, 2 * TURNS_AT_ONCE];
 pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
 pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
+/// First column of each of these two in the texture of both, and its size.
+pub(crate) const IRRADIANCE_AT: u32 = 32;
+pub(crate) const SKY_AT: u32 = IRRADIANCE_AT + IRRADIANCE_SIZE[0];
+pub(crate) const SKY_LUT_SIZE: [u32; 2] = [SKY_AT + SKY_SIZE[0], SKY_SIZE[1]];
 /// Texels along a face of a cloud map.
 pub(crate) const CLOUD_MAP_SIDE: u32 = 512;
 /// Mip levels of a cloud map. Coarser ones are not needed: a planet is hardly drawn smaller.

@@ -402,7 +402,7 @@ uniform_struct! {
         /// Steps of a march through it; 0 where there is none.
         steps: f32,
         /// x: first step of a march that begins in the layer, km; y: ratio of each step to the one before; z: parts of
-        /// a step within a cloud (1: such steps are neither searched nor parted).
+        /// a step within a cloud (1: such steps are neither searched nor parted); w: 1 if steps are even.
         stride: Vec4,
         /// Bands of its noise: the first, the one that makes puffs, and the one after the last.
         first_band: u32,

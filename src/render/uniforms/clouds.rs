@@ -68,6 +68,7 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
         // One choice for the whole picture: where the layer is thinner than a pixel, few samples give its mean.
         let is_thin = (eye_altitude_km - top_km) * f64::from(pixel_rad) > 0.5 * layer.thickness_km;
         let is_hidden = layer.index == RAIN_LAYER && eye_altitude_km > RAIN_FROM * low_top_km;
+        let even = if is_thin { 1.0 } else { 0.0 };
         let [steps, parts] = if is_thin { [FAR_STEPS.min(layer.effort[0]), 1.0] } else { layer.effort };
         let [before, after] = layer.bands;
         let mut position_km = drifted_km;
@@ -84,7 +85,7 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
             top_km: top_km as f32,
             optical_depth: layer.optical_depth as f32,
             steps: if layer.coverage > 0.0 && !is_hidden { steps as f32 } else { 0.0 },
-            stride: DVec3::new(first_km, step_growth(longest_km / first_km, steps), parts).as_vec3().extend(0.0),
+            stride: DVec3::new(first_km, step_growth(longest_km / first_km, steps), parts).as_vec3().extend(even),
             first_band: first_band as u32,
             puff_band: (first_band + before) as u32,
             end_band: (first_band + before + after) as u32,
