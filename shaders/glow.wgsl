@@ -3,7 +3,7 @@
 // of the multiple-scattering LUT. The moments in that LUT suffice for light that is scattered on, but not for what
 // dust scatters to the eye, so here the light seen from all around is summed with the exact phase functions.
 #include "screen.wgsl"
-#include "glow_model.wgsl"
+#include "glow_moments.wgsl"
 
 // Stands in the place of the LUT of the sky
 @group(1) @binding(2) var seen_lut: texture_2d_array<f32>;
@@ -56,38 +56,23 @@ fn rescattered(pixel: vec2i, h: f32, by_rayleigh: vec3f, mu: f32, turns: vec3f, 
     );
 }
 
-// The same by moments, and what the peak of haze has added to the beam.
-fn by_moments(h: f32, sun_mu: f32, by_rayleigh: vec3f, mu: f32, cosine: f32) -> vec3f {
-    let light = scattered_light(h, sun_mu);
-    let peak = max(sun_beam(h, sun_mu) - sun_transmittance(h, sun_mu), vec3f(0.0));
-    var shares = Air(by_rayleigh, 1.0 - by_rayleigh, vec3f(0.0));
-    return peak * (shares.rayleigh * rayleigh_phase(cosine) + shares.mie * mie_phase(cosine))
-        + scattered(shares, light, haze_moments(), mu, cosine);
-}
-
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> Turns {
     set_lut_sun();
-    let place = tiled(position);
-    let at = point_of_texel(place.pixel);
-    var none: Turns;
-    if all_is_dark(at.x, at.y) { return none; }
-    let mu = view_cosine_at(f32(place.tile.x) / (GLOW_NODES.x - 1.0));
-    let nodes = (f32(TURNS_AT_ONCE * place.tile.y) + vec3f(0.0, 1.0, 2.0)) / (GLOW_NODES.y - 1.0);
-    let turns = vec3f(turn_at(nodes.x), turn_at(nodes.y), turn_at(nodes.z));
-    let air = air_at(at.x);
-    let by_rayleigh = air.rayleigh / max(air.rayleigh + air.mie, vec3f(1e-30));
-    let moments = share_of_moments(at.y);
+    let to = to_turns(position);
+    let at = to.at;
     var light: Lights;
+    if all_is_dark(at.x, at.y) { return turns_of(light); }
+    let moments = share_of_moments(at.y);
     if moments < 1.0 {
-        let sines = sqrt(max(vec3f(0.0), 1.0 - turns * turns));
-        light = rescattered(vec2i(place.pixel.xy), at.x, by_rayleigh, mu, turns, sines);
+        let sines = sqrt(max(vec3f(0.0), 1.0 - to.turns * to.turns));
+        light = rescattered(vec2i(to.pixel), at.x, to.by_rayleigh, to.mu, to.turns, sines);
     }
     if moments > 0.0 {
-        let cosines = mu * at.y + flat_of(mu) * flat_of(at.y) * turns;
-        light.first = mix(light.first, by_moments(at.x, at.y, by_rayleigh, mu, cosines.x), moments);
-        light.second = mix(light.second, by_moments(at.x, at.y, by_rayleigh, mu, cosines.y), moments);
-        light.third = mix(light.third, by_moments(at.x, at.y, by_rayleigh, mu, cosines.z), moments);
+        let other = all_by_moments(to);
+        light.first = mix(light.first, other.first, moments);
+        light.second = mix(light.second, other.second, moments);
+        light.third = mix(light.third, other.third, moments);
     }
     return turns_of(light);
 }

@@ -45,7 +45,7 @@ const READ_SEEN: Option<usize> = Some(2);
 const READ_GLOW: Option<usize> = Some(3);
 /// The passes that draw them, in order: shader, the LUT drawn, and for shaders that read LUTs, the index into [`READ`].
 /// Each correction of multiple scattering reads one LUT and draws the other.
-const AIR_PASSES: [(&str, usize, Option<usize>); 9] = [
+const AIR_PASSES: [(&str, usize, Option<usize>); 10] = [
     ("optical_depth.wgsl", DEPTH, None),
     ("multiscatter_guess.wgsl", MULTISCATTER, READ_OTHER),
     ("multiscatter_first.wgsl", OTHER_MULTISCATTER, READ_MULTISCATTER),
@@ -54,10 +54,14 @@ const AIR_PASSES: [(&str, usize, Option<usize>); 9] = [
     ("multiscatter.wgsl", MULTISCATTER, READ_OTHER),
     ("seen.wgsl", SEEN, READ_MULTISCATTER),
     ("glow.wgsl", GLOW, READ_SEEN),
+    ("glow_draft.wgsl", GLOW, READ_SEEN),
     ("sky.wgsl", SKY, READ_GLOW),
 ];
 /// The first pass of each key: optical depth, scattered light.
 const FIRST_OF_KEY: [usize; 2] = [0, 1];
+/// The passes that sum light over directions, which drafts leave out, and the one that takes their place in drafts.
+const SUMS: [usize; 2] = [6, 7];
+const DRAFT: usize = 8;
 
 /// Size of a LUT of tiles, by its elevations and azimuths.
 const fn tiled(nodes: [u32; 2]) -> [u32; 2] {
@@ -158,6 +162,8 @@ pub(crate) struct Luts {
     /// For optical depth and scattered light: the planet's key, and the bits of the widest sun's angular radius, which
     /// softens the terminator.
     air_keys: [Option<(Key, u32)>; FIRST_OF_KEY.len()],
+    /// Whether the LUTs of scattered light are drafts.
+    air_is_draft: bool,
     biome_key: Option<(Key, Option<Arc<MarkedCells>>)>,
     biome_texels: BiomeTexels,
     pub(crate) runs: LutRuns,
@@ -185,6 +191,7 @@ impl Luts {
             shown_map: None,
             groups,
             air_keys: Default::default(),
+            air_is_draft: false,
             biome_key: None,
             biome_texels,
             runs: LutRuns::default(),
@@ -202,14 +209,15 @@ impl Luts {
     }
 
     /// Updates everything that a revision has made stale. `uniforms`: those of the body, already written.
-    /// `sun_radius_rad`: angular radius of the widest sun in them.
+    /// `sun_radius_rad`: angular radius of the widest sun in them. `drafts`: LUTs of scattered light that must be made
+    /// again may be drafts.
     pub(crate) fn update(
         &mut self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
         (patterns, pipelines): (&Patterns, &LutPipelines),
         (uniforms, sun_radius_rad): (&wgpu::BindGroup, f32),
-        revision: &Revision,
+        (revision, drafts): (&Revision, bool),
         marked: Option<&Arc<MarkedCells>>,
     ) {
         let (planet, keys) = (revision.planet(), revision.keys());
@@ -223,7 +231,15 @@ impl Luts {
             let sun = sun_radius_rad.to_bits();
             let air_keys = [(keys.optical_depth(), 0), (keys.air_tables(), sun)].map(Some);
             // The second key includes the first one.
-            if let Some(stale) = (0..air_keys.len()).find(|i| self.air_keys[*i] != air_keys[*i]) {
+            let stale = (0..air_keys.len()).find(|i| self.air_keys[*i] != air_keys[*i]);
+            if stale.is_none() && self.air_is_draft && !drafts {
+                self.air_is_draft = false;
+                self.fill_air(encoder, uniforms, pipelines, SUMS[0]);
+                self.runs.air += 1;
+            }
+            if let Some(stale) = stale {
+                // The first LUTs are never drafts.
+                self.air_is_draft = drafts && self.air_keys[stale].is_some();
                 self.fill_air(encoder, uniforms, pipelines, FIRST_OF_KEY[stale]);
                 self.air_keys = air_keys;
                 self.runs.optical_depth += u64::from(stale == 0);
@@ -293,7 +309,12 @@ impl Luts {
         pipelines: &LutPipelines,
         first: usize,
     ) {
-        for (pipeline, (shader, drawn, read)) in pipelines.air.iter().zip(AIR_PASSES).skip(first) {
+        for (number, (pipeline, (shader, drawn, read))) in pipelines.air.iter().zip(AIR_PASSES).enumerate().skip(first)
+        {
+            let is_left_out = if self.air_is_draft { SUMS.contains(&number) } else { number == DRAFT };
+            if is_left_out {
+                continue;
+            }
             let groups = match read {
                 None => vec![uniforms],
                 Some(read) => vec![uniforms, &self.groups.air[read]],

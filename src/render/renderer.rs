@@ -306,7 +306,7 @@ impl Renderer {
                 encoder,
                 (&*self.patterns, &self.pipelines.luts),
                 (&body_view.group, values.lut_sun_radius_rad),
-                &body.revision,
+                (&body.revision, scene.drafts),
                 body.marked.as_ref(),
             );
             if let Some(map) = scene.debug_view.map() {

@@ -85,7 +85,7 @@ impl Renderer {
         let group = self.uniform_group(&frame, &body);
         let mut luts = Luts::new(device, queue, &self.patterns);
         let pipelines = (&*self.patterns, &self.pipelines.luts);
-        luts.update((device, queue), encoder, pipelines, (&group, values.lut_sun_radius_rad), revision, None);
+        luts.update((device, queue), encoder, pipelines, (&group, values.lut_sun_radius_rad), (revision, false), None);
         (group, luts)
     }
 }

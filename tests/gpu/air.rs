@@ -345,3 +345,31 @@ fn the_night_sky_has_stars_and_is_not_flat() {
     let rows = row_luminance(&gpu);
     assert!(rows[130] > 1.3 * rows[10], "near the horizon {}, overhead {}", rows[130], rows[10]);
 }
+
+/// While a slider is dragged the LUTs are drafts, without the sums over directions; afterwards they are those of a new
+/// renderer.
+#[test]
+fn a_draft_of_the_air_becomes_the_picture_proper() {
+    let [_, (_, old), _] = planets();
+    let mut dusty = old.clone();
+    dusty.atmosphere.as_mut().unwrap().mie_scattering_per_km = [0.05; 3];
+    let camera = camera(&old, 0.0, 0.0, 3000.0, 90.0, 5.0);
+    let draw = |gpu: &mut Gpu, planet: &Planet, drafts: bool| {
+        let planet = Arc::new(planet.clone());
+        let view = View { camera, size_px: SIZE_PX, quality: Quality::Low };
+        let surface = surface_of(&planet, &view);
+        let mut scene = frame_of(&surface, &planet, view, LatLon::from_degrees(0.0, 60.0).direction());
+        scene.drafts = drafts;
+        gpu.draw(&scene)
+    };
+    let mut gpu = Gpu::new();
+    let first = draw(&mut gpu, &old, true);
+    assert!(first == draw(&mut Gpu::new(), &old, false), "the first LUTs are no drafts");
+    let draft = draw(&mut gpu, &dusty, true);
+    let proper = draw(&mut gpu, &dusty, false);
+    assert!(proper == draw(&mut Gpu::new(), &dusty, false), "a draft is left");
+    assert!(proper == draw(&mut gpu, &dusty, true), "what is whole stays whole");
+    let off = |a: &[u8], b: &[u8]| a.iter().zip(b).map(|(a, b)| u64::from(a.abs_diff(*b))).sum::<u64>();
+    let (to_draft, to_old) = (off(&draft, &proper), off(&first, &proper));
+    assert!(to_draft > 0 && 2 * to_draft < to_old, "{to_draft} of {to_old}");
+}
