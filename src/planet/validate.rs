@@ -2,7 +2,7 @@
 //!
 //! Ranges come from the description of each parameter. Rules that involve several parameters are here.
 
-use super::edits::{self, MAX_ALL_COPIES, MAX_EDIT_POINTS, MAX_EDITS};
+use super::edits::{self, MAX_ALL_COPIES, MAX_EDIT_POINTS, MAX_EDITS, MOST_COURSES_RADII};
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Params as _, Segment};
 use super::structure::MAX_PLATES;
@@ -76,6 +76,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
     }
     biomes(&planet.biomes, &mut found);
     painted_biomes(planet, &mut found);
+    courses(planet, &mut found);
     found.0
 }
 
@@ -246,6 +247,21 @@ fn points(index: usize, edit: &GroundEdit, found: &mut Found) {
     if let Some(number) = points.windows(2).position(far) {
         let message = "this point is more than 120° from the one before it; add points between them";
         found.add(item(&list(), number + 1, None), message);
+    }
+}
+
+/// Each grid of rivers walks along all courses.
+fn courses(planet: &Planet, found: &mut Found) {
+    let rivers = planet.edits.iter().filter(|edit| matches!(edit.tool, Tool::River(_)));
+    let length = |edit: &GroundEdit| -> f64 {
+        edit.points.0.windows(2).map(|pair| pair[0].direction().angle_between(pair[1].direction())).sum()
+    };
+    let radii: f64 = rivers.map(length).sum();
+    if radii > MOST_COURSES_RADII {
+        let message = format!(
+            "the courses of its rivers are {radii:.0} radii of the planet long in all; use at most {MOST_COURSES_RADII}"
+        );
+        found.add(ParamPath::default().join("edits"), message);
     }
 }
 

@@ -130,3 +130,15 @@ fn structural_edits_solve_weather_and_rivers_again_and_nothing_without_a_structu
     let [before, after] = [vec![], vec![uplift(5000.0)]].map(|edits| with(flat.clone(), edits));
     assert!(!after.changes_since(&before).contains(Stage::Height), "no structure, nothing to answer");
 }
+
+#[test]
+fn rivers_around_the_planet_again_and_again_are_refused() {
+    let round = |times: usize| {
+        let points: Vec<EditPoint> = (0..=4 * times).map(|k| at(0.0, -180.0 + 90.0 * (k % 4) as f64)).collect();
+        let edits = [edit(Tool::River(RiverCourse::default()), 1.0, &points)].into_iter().collect();
+        Planet { edits, ..planet() }.check()
+    };
+    assert!(round(70).is_ok());
+    let error = round(90).unwrap_err().to_string();
+    assert!(error.contains("565 radii") && error.contains("at most 500"), "{error}");
+}

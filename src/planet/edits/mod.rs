@@ -28,6 +28,8 @@ pub const MAX_EDITS: usize = 20_000;
 pub const MOST_LIMIT_M: f64 = 20_000.0;
 /// Most points of one edit.
 pub const MAX_EDIT_POINTS: usize = 1000;
+/// Greatest length of the courses of all rivers, in radii of the planet.
+pub const MOST_COURSES_RADII: f64 = 500.0;
 /// Most copies of a stamp around one of its points, and around all of them.
 pub const MAX_COPIES: u32 = 1000;
 /// See [`MAX_COPIES`].

@@ -6,7 +6,7 @@ use crate::world::grid::cell_at;
 use crate::world::noise::fbm3;
 use crate::world::sculpted::Course;
 use glam::DVec3;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Bends of a course: the largest are as many times longer than it strays.
 const WAVES: f64 = 0.2;
@@ -49,6 +49,8 @@ impl Forced {
             let radius_m = radius_km * 1000.0;
             let spring = course.spring_m3_s * YEAR_S / (radius_m * radius_m) / DISCHARGE_UNIT;
             let mut chain = Chain { cells: Vec::new(), end: End::Land, spring: spring as u64, cut: course.cut };
+            // The place of each cell in the chain.
+            let mut places: HashMap<u32, usize> = HashMap::new();
             for cell in cells_along(course, side) {
                 if is_sea[cell as usize] {
                     // Before the spring, the sea is not the mouth.
@@ -64,9 +66,10 @@ impl Forced {
                     break;
                 }
                 // A line that comes back to its own cell leaves the loop out.
-                if let Some(loop_start) = chain.cells.iter().position(|other| *other == cell) {
-                    chain.cells.truncate(loop_start);
+                if let Some(&first) = places.get(&cell) {
+                    chain.cells.drain(first..).for_each(|left_out| drop(places.remove(&left_out)));
                 }
+                places.insert(cell, chain.cells.len());
                 chain.cells.push(cell);
             }
             forced.steps.extend(chain.cells.windows(2).map(|pair| (pair[0], pair[1])));
