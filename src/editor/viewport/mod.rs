@@ -271,6 +271,7 @@ impl Viewport {
     /// Lets refinement wait as if the user had touched something: other pictures need the device.
     pub fn postpone_refinement(&mut self, now_secs: f64) {
         self.picture.refinement.touched(now_secs);
+        self.panes.touched(now_secs);
     }
 
     /// How many pictures have been drawn since the start.
