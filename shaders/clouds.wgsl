@@ -60,8 +60,8 @@ fn jitter_of(pixel: vec2f) -> f32 {
 // Where in its pixel a ray is marched, pixels from the middle. Any 3x3 pixels together have a ray in each ninth, so
 // that their mean smooths the edges of clouds: between rays through the middles it would only blur stairs.
 fn aside_of(pixel: vec2f) -> vec2f {
-    // Carried over clouds are those of whole pixels, the frames of a still picture have places of their own, and from afar
-    // the maps are blurred to pixels already.
+    // Clouds that are carried over are those of whole pixels. The frames of a still picture have places of their own.
+    // From afar the maps are blurred to pixels already.
     if body.march_block > 1u || frame.still_number > 1u || body.cloud_is_far != 0u { return vec2f(0.0); }
     let place = place_from_axis(pixel);
     return (place.yx - 3.0 * floor(place.yx / 3.0) - 1.0) / 3.0;

@@ -9,8 +9,8 @@
 @group(1) @binding(2) var seen_lut: texture_2d_array<f32>;
 
 // Light seen by the point of a pixel of the multiple-scattering LUT, scattered once more. The sum is divided by that
-// over even light: directions are too far apart to resolve a sharp phase function. `shares`: of molecules and haze in
-// all scattering are `by_rayleigh` and 1 - `by_rayleigh`. `turns` and `sines`: cosines and sines of the azimuths.
+// over even light: directions are too far apart to resolve a sharp phase function. `by_rayleigh`: the share of
+// molecules in all scattering; haze has the rest. `turns` and `sines`: cosines and sines of the azimuths.
 fn rescattered(pixel: vec2i, h: f32, by_rayleigh: vec3f, mu: f32, turns: vec3f, sines: vec3f) -> Lights {
     // Factors of the phase functions that do not depend on the direction cancel.
     let g = body.mie_anisotropy;

@@ -1,5 +1,5 @@
-// LUT of light that air scatters for a second time or more, by direction, while a slider is held: by moments alone, where
-// glow.wgsl sums the light from all around.
+// LUT of light that air scatters for a second time or more, by direction, while a slider is held. It takes moments
+// alone, where glow.wgsl sums the light from all around.
 #include "screen.wgsl"
 #include "glow_moments.wgsl"
 

@@ -9,7 +9,7 @@ use super::state::shooting::{PhotoSettings, Subject};
 use super::state::templates::Template;
 use super::state::variations::Wish;
 use super::viewport::camera::Mode;
-use super::viewport::panes::Layout;
+use super::viewport::panes::PaneLayout;
 use super::viewport::travel::Arrival;
 use crate::lod::Quality;
 use crate::planet::param::ParamPath;
@@ -38,7 +38,7 @@ pub enum Command {
     ResetView,
     GoToPlace,
     /// How many views of the planet there are.
-    Panes(Layout),
+    Panes(PaneLayout),
     /// Show or hide all that is known of the place under the pointer.
     Inspect,
     /// Hold the inspected place, or follow the pointer again.

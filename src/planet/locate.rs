@@ -344,7 +344,8 @@ pub(crate) fn offset(text: &str, line: usize, column: usize) -> usize {
     line_start + rest.char_indices().nth(column.saturating_sub(1)).map_or(rest.len(), |(i, _)| i)
 }
 
-/// The text of the token at an offset, shortened, for messages. Control characters, which command terminals, are escaped.
+/// The text of the token at an offset, shortened, for messages. What commands a terminal or turns the direction of text
+/// is escaped.
 pub(crate) fn excerpt(text: &str, offset: usize) -> String {
     const MOST_CHARS: usize = 40;
     let mut tokens = Tokens { text, at: offset };
@@ -353,7 +354,9 @@ pub(crate) fn excerpt(text: &str, offset: usize) -> String {
     }
     let token = text.get(offset..tokens.at).unwrap_or_default();
     let line = token.lines().next().unwrap_or_default();
-    let plain = |c: char| -> String { if c.is_control() { c.escape_default().collect() } else { c.into() } };
+    let turns = |c: char| ('\u{202a}'..='\u{202e}').contains(&c) || ('\u{2066}'..='\u{2069}').contains(&c);
+    let is_plain = |c: char| !c.is_control() && !turns(c);
+    let plain = |c: char| -> String { if is_plain(c) { c.into() } else { c.escape_default().collect() } };
     let shown: String = line.chars().take(MOST_CHARS).map(plain).collect();
     let is_whole = line.len() == token.len() && line.chars().count() <= MOST_CHARS;
     format!("`{shown}{}`", if is_whole { "" } else { "…" })

@@ -284,8 +284,8 @@ pub struct Scene<'a> {
     pub time_secs: f64,
     /// The planets, or a debug view.
     pub debug_view: DebugView,
-    /// Whether cloud maps may be coarse for now, and the LUTs of the air drafts: while a slider is dragged, an answer at
-    /// once is worth more.
+    /// Whether cloud maps and the LUTs of the air may be drafts: while a slider is dragged, an answer at once is worth
+    /// more.
     pub drafts: bool,
     /// Of a tile of a photograph: the projection of the whole.
     pub(crate) whole: Option<Projection>,

@@ -11,7 +11,7 @@ use super::kept::KeptFields;
 use super::points::Points;
 use crate::simd::Simd;
 use crate::world::cells::Cells;
-use crate::world::{Course, Ground, Inputs, KeepGoing, Sculpted};
+use crate::world::{DrawnCourse, Ground, Inputs, KeepGoing, Sculpted};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -81,7 +81,7 @@ impl Ground for LayerGround<'_> {
         self.edits?.sculpted(&cells.dirs)
     }
 
-    fn courses(&self) -> &[Course] {
+    fn courses(&self) -> &[DrawnCourse] {
         self.edits.map_or(&[], Edits::courses)
     }
 }

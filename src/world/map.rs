@@ -2,7 +2,7 @@
 
 use super::bytes::{Reader, Writer};
 use super::cells::Cells;
-use super::{Course, Sculpted, World};
+use super::{DrawnCourse, Sculpted, World};
 use crate::planet::{Key, Plates, Rivers, Weather};
 use std::sync::Arc;
 
@@ -61,7 +61,7 @@ pub(crate) trait Ground: Sync {
     }
 
     /// Rivers whose courses are drawn by hand.
-    fn courses(&self) -> &[Course] {
+    fn courses(&self) -> &[DrawnCourse] {
         &[]
     }
 }

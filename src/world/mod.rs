@@ -46,7 +46,7 @@ pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
 #[cfg(feature = "render")]
 pub(crate) use picture::{MapPicture, MapView, RAIN_COLORS};
 use plates::Plates;
-pub(crate) use sculpted::{Course, Sculpted};
+pub(crate) use sculpted::{DrawnCourse, Sculpted};
 pub(crate) use slot::Slot;
 pub use slot::{MapLevel, MapWork};
 use std::fmt;

@@ -5,6 +5,7 @@ use super::map::Job;
 use super::noise::{fbm, hash};
 use super::plates::Rock;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Paint of the structure at the cells of a grid.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +27,7 @@ impl Sculpted {
 
 /// A river whose course is drawn by hand.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Course {
+pub(crate) struct DrawnCourse {
     /// Unit directions from the spring to the mouth.
     pub(crate) points: Vec<DVec3>,
     /// About how far the river strays from the straight way between points, as an angle.
@@ -52,9 +53,12 @@ pub(super) fn rock_of(job: &Job<'_>, rock: &Rock) -> Rock {
     let cells = Cells::of(rock.side);
     let Some(paint) = job.ground.sculpted(&cells) else { return shaped };
     let seed = hash(job.inputs().structure.as_ref().map_or(0, |structure| structure.seed), 0x0117F);
-    for (cell, paint_m) in paint.uplift_m.iter().enumerate() {
-        let varied = || 1.0 + RISE_VARIES * fbm(cells.dirs[cell], RISE_FREQUENCY, RISE_OCTAVES, 0.55, seed);
-        let paint_m = if *paint_m == 0.0 { 0.0 } else { paint_m * varied().max(0.1) };
+    let varied = |(dir, paint_m): (&DVec3, &f64)| {
+        let varied = || 1.0 + RISE_VARIES * fbm(*dir, RISE_FREQUENCY, RISE_OCTAVES, 0.55, seed);
+        if *paint_m == 0.0 { 0.0 } else { paint_m * varied().max(0.1) }
+    };
+    let uplift_m: Vec<f64> = cells.dirs.par_iter().zip(&paint.uplift_m).with_min_len(1024).map(varied).collect();
+    for (cell, paint_m) in uplift_m.into_iter().enumerate() {
         let uplift_m = shaped.uplift_m[cell] + paint_m;
         // Nothing rises by less than nothing: the ground lies lower.
         if paint_m < 0.0 {

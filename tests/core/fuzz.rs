@@ -1,8 +1,6 @@
 //! Structured fuzzing of what strangers write: presets, systems, height pictures. Tokens of valid texts are deleted,
 //! doubled, swapped and replaced; bytes of valid pictures are changed. Nothing may panic; what is taken must be valid,
 //! and the same after it has been written and read again; what is refused gets a message of a line or a few.
-//!
-//! A find becomes a case of `finds_of_before`.
 
 use crate::support::dice::Dice;
 use crate::support::edits::full_planet;
@@ -147,7 +145,9 @@ fn changed(tokens: &[String], dice: &mut Dice) -> String {
 /// A message is short, and holds nothing that commands a terminal.
 fn is_plain(message: &str) {
     assert!(message.len() < MOST_CHARS, "{} characters: {}", message.len(), &message[..200]);
-    assert!(!message.is_empty() && message.chars().all(|c| !c.is_control() || c == '\n'), "{message:?}");
+    let turns = |c: char| ('\u{202a}'..='\u{202e}').contains(&c) || ('\u{2066}'..='\u{2069}').contains(&c);
+    let is_plain = |c: char| (!c.is_control() && !turns(c)) || c == '\n';
+    assert!(!message.is_empty() && message.chars().all(is_plain), "{message:?}");
 }
 
 fn read_preset(text: &str) -> bool {

@@ -2,11 +2,11 @@
 
 use super::app::until;
 use super::*;
-use tellus::editor::viewport::panes::{Layout, Shows};
+use tellus::editor::viewport::panes::{PaneLayout, Shows};
 use tellus::render::DebugView;
 
 /// An editor with so many views, whose debug view is drawn fast.
-fn with_views(layout: Layout) -> Editor {
+fn with_views(layout: PaneLayout) -> Editor {
     let mut harness = app::open_at_rate([1400.0, 800.0], vec![], 8.0);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::Num8);
     app::send(&mut harness, Command::Panes(layout));
@@ -28,9 +28,9 @@ fn shows(harness: &Editor) -> Vec<Shows> {
 
 #[test]
 fn four_views_show_the_planet_and_a_map_and_one_view_has_all_the_room_again() {
-    let mut harness = with_views(Layout::One);
+    let mut harness = with_views(PaneLayout::One);
     let all = canvas(&harness);
-    app::send(&mut harness, Command::Panes(Layout::Four));
+    app::send(&mut harness, Command::Panes(PaneLayout::Four));
     wait_for_picture(&mut harness);
     let labels: Vec<&str> = shows(&harness).into_iter().map(Shows::label).collect();
     assert_eq!(labels, ["Level", "Height", "Biome", "Map"]);
@@ -39,14 +39,14 @@ fn four_views_show_the_planet_and_a_map_and_one_view_has_all_the_room_again() {
     click(&mut harness, "View 2 shows: Height");
     click(&mut harness, "Slope");
     assert_eq!(harness.state().viewport().shows(1), Some(Shows::Planet(DebugView::Slope)));
-    app::send(&mut harness, Command::Panes(Layout::One));
+    app::send(&mut harness, Command::Panes(PaneLayout::One));
     wait_for_picture(&mut harness);
     assert_eq!((shows(&harness).len(), canvas(&harness)), (1, all));
 }
 
 #[test]
 fn a_press_gives_a_view_the_tools_and_linked_views_share_a_camera() {
-    let mut harness = with_views(Layout::Four);
+    let mut harness = with_views(PaneLayout::Four);
     let before_m = eye_m(&harness, 0);
     assert_eq!(eye_m(&harness, 2), before_m);
     let from = rect(&harness, 1).center();
@@ -70,7 +70,7 @@ fn a_press_gives_a_view_the_tools_and_linked_views_share_a_camera() {
 
 #[test]
 fn tools_work_in_every_view_of_the_planet() {
-    let mut harness = with_views(Layout::Four);
+    let mut harness = with_views(PaneLayout::Four);
     app::send(&mut harness, Command::TakeTool(0));
     for place in [2, 0, 1] {
         let from = rect(&harness, place).center();
@@ -88,7 +88,7 @@ fn tools_work_in_every_view_of_the_planet() {
 
 #[test]
 fn a_click_on_the_map_flies_there() {
-    let mut harness = with_views(Layout::Two);
+    let mut harness = with_views(PaneLayout::Two);
     let map = rect(&harness, 1);
     let ahead = map.center() + egui::vec2(0.125 * map.width(), 0.0);
     harness.hover_at(ahead);

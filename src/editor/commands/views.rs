@@ -2,19 +2,21 @@
 
 use super::{Menu, Row, plain};
 use crate::editor::command::Command;
-use crate::editor::viewport::panes::Layout;
+use crate::editor::viewport::panes::PaneLayout;
 use crate::render::DebugView;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
 pub(super) fn rows() -> Vec<Row> {
-    DebugView::ALL.into_iter().map(debug_view).chain(Layout::ALL.into_iter().map(panes)).collect()
+    DebugView::ALL.into_iter().map(debug_view).chain(PaneLayout::ALL.into_iter().map(panes)).collect()
 }
 
-fn panes(layout: Layout) -> Row {
+fn panes(layout: PaneLayout) -> Row {
     let (label, tooltip, key) = match layout {
-        Layout::One => ("One view", "Give the view with the tools all the room.", Key::Num1),
-        Layout::Two => ("Two views", "Show a map, or another view of the planet, beside this one.", Key::Num2),
-        Layout::Four => ("Four views", "Show the planet four times: heights, biomes and a map beside it.", Key::Num4),
+        PaneLayout::One => ("One view", "Give the view with the tools all the room.", Key::Num1),
+        PaneLayout::Two => ("Two views", "Show a map, or another view of the planet, beside this one.", Key::Num2),
+        PaneLayout::Four => {
+            ("Four views", "Show the planet four times: heights, biomes and a map beside it.", Key::Num4)
+        }
     };
     Row::new(Command::Panes(layout), label, tooltip, move |s, _| s.viewport.set_layout(layout))
         .within(Menu::View, 1)

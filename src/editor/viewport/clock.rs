@@ -138,6 +138,7 @@ impl FrameMeter {
         self.interval_secs.filter(|_| self.last.is_some_and(|last| last.elapsed().as_secs_f64() < Self::IDLE_SECS))
     }
 }
+
 /// The newest planet if a surface has its tiles, else the surface's own: it gives sea, air, clouds and light.
 pub(super) fn revision_over(newest: Option<&Revision>, surface: &Surface) -> Revision {
     let newest = newest.filter(|newest| same_tiles(&surface.terrain, newest));

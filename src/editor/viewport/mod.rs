@@ -176,6 +176,7 @@ impl Viewport {
         let lit = self.neighbours.as_ref().and_then(|neighbours| neighbours.lit_planet(self.settings.time_secs));
         self.cameras = Cameras::new(self.ground_radius_m, opening_place(lit.as_ref().unwrap_or(planet)));
         self.cameras.set_dive(dive);
+        self.reset_panes();
     }
 
     /// The window's context.
@@ -190,12 +191,7 @@ impl Viewport {
 
     /// The surface on screen, and the planet that gives it sea, air, clouds and light.
     pub fn shown(&self) -> Option<(Arc<Surface>, Revision)> {
-        self.surface().map(|surface| (surface.clone(), self.revision_over(&surface)))
-    }
-
-    /// The newest planet if a surface has its tiles, else the surface's own.
-    fn revision_over(&self, surface: &Surface) -> Revision {
-        revision_over(self.newest.as_ref(), surface)
+        self.surface().map(|surface| (surface.clone(), revision_over(self.newest.as_ref(), &surface)))
     }
 
     /// The surface on screen.
@@ -465,7 +461,7 @@ impl Viewport {
             self.newest = Revision::try_new(valid.clone()).ok();
         }
         // The sea, air and light of one planet over the ground of another would flash until the new tiles are there.
-        let revision = self.revision_over(&surface);
+        let revision = revision_over(self.newest.as_ref(), &surface);
         let (settings, marked) = (&self.settings, self.tab.marked.clone());
         let (frozen, is_busy) = (self.frozen, self.is_busy());
         let subject = Subject { surface, revision, view, frozen, settings, marked, sky, drafts, is_busy, now_secs };

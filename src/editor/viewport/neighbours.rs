@@ -102,6 +102,7 @@ impl Viewport {
                 Some(surface) => self.picture.show_at_once(surface),
                 None => self.picture.wait_for_surface(),
             }
+            self.panes.wait_for_surfaces();
             let own = own.unwrap_or_else(|| neighbours.builder(&self.ctx));
             neighbours.builders.insert(before, std::mem::replace(&mut self.builder, own));
         }

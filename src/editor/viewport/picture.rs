@@ -34,7 +34,7 @@ pub(super) struct Subject<'a> {
     pub(super) marked: Option<Arc<MarkedCells>>,
     /// The other bodies of the planet's system.
     pub(super) sky: Option<Sky>,
-    /// Whether cloud maps may be coarse: a button of the pointer is down.
+    /// Whether cloud maps and the LUTs of the air may be drafts: a button of the pointer is down.
     pub(super) drafts: bool,
     /// Whether a finer surface is on its way.
     pub(super) is_busy: bool,

@@ -295,7 +295,9 @@ impl Hand {
         let point = point_at(scene.surface, brush, scene.ground(scene.surface, pos)?);
         if let Some(index) = self.line {
             let first = planet.edits.get(index)?.points.0.first().copied()?;
-            let closes = is_near(scene, &first, pos) && planet.edits.get(index)?.points.0.len() > 2;
+            // A river does not run in a ring.
+            let may_close = !matches!(brush.tool, Tool::River(_));
+            let closes = may_close && is_near(scene, &first, pos) && planet.edits.get(index)?.points.0.len() > 2;
             let edit = planet.edits.get_mut(index)?;
             if edit.points.0.len() < MAX_EDIT_POINTS {
                 edit.points.0.push(if closes { first } else { point });

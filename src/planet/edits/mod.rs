@@ -46,8 +46,8 @@ params! {
         /// Which ground it changes: all, or only land or sea floor. At the sea level it begins gently. Paint ignores
         /// it.
         limit: Limit = Limit::Everywhere, "Acts on", Unit::None, Domain::Choice, Stage::Height;
-        /// Whether it may raise ground and lower it: a road that raises only is a dam, one that lowers only a cutting. Paint
-        /// ignores it.
+        /// Whether it may raise ground and lower it: a road that raises only is a dam, one that lowers only a cutting.
+        /// Paint ignores it.
         blend: EditBlend = EditBlend::Both, "Blend", Unit::None, Domain::Choice, Stage::Height;
         /// It changes only ground above this height, and begins gently there; at the lowest value, all ground.
         above_m: f64 = -MOST_LIMIT_M, "Only above", Unit::Metres, linear(-MOST_LIMIT_M, MOST_LIMIT_M), Stage::Height;

@@ -380,8 +380,8 @@ params! {
 }
 
 params! {
-    /// Water follows the line from its first point to its last, as far as that leads down. A line that ends inland leaves
-    /// the rest of the way to the water.
+    /// Water follows the line from its first point to its last, as far as that leads down. Where a line ends inland,
+    /// the water finds the rest of its way.
     pub struct RiverCourse {
         /// Water of the spring at the first point, besides what flows in along the way.
         spring_m3_s: f64 = 200.0, "Spring", Unit::CubicMetresPerSecond, log(0.0, 500_000.0), Stage::Field;

@@ -43,7 +43,7 @@ use super::height::Heights;
 use crate::planet::edits::Shared;
 use crate::planet::{GroundEdits, Key, Planet, Tool};
 use crate::sphere::NodeId;
-use crate::world::Course;
+use crate::world::DrawnCourse;
 use compiled::CompiledEdit;
 use glam::DVec3;
 use index::{Index, Piece, Walk};
@@ -73,7 +73,7 @@ pub(crate) struct Edits {
     clouds: Index,
     /// Those that paint the structure, and rivers whose courses are drawn.
     structural: Index,
-    courses: Vec<Course>,
+    courses: Vec<DrawnCourse>,
     key: Key,
     /// Whether an edit reads the ground around a point.
     reads: bool,

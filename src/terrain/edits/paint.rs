@@ -1,6 +1,6 @@
 //! Painted climate: strokes that change moisture and temperature, and those that paint a biome by the climate that it
-//! has in the biome table. Painted clouds: strokes that change the log-odds of their cover. Paint of the structure is in
-//! `structural`.
+//! has in the biome table. Painted clouds: strokes that change the log-odds of their cover. Paint of the structure is
+//! in `structural`.
 
 use super::structural::StructurePaint;
 use crate::planet::{Biomes, Planet, Table, TableRows};

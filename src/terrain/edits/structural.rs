@@ -6,10 +6,12 @@ use super::near::Near;
 use super::roster::Roster;
 use crate::planet::edits::{EditPoint, RiverCourse};
 use crate::planet::{Key, Tool};
-use crate::world::{Course, Sculpted};
+use crate::world::{DrawnCourse, Sculpted};
 use glam::DVec3;
 use rayon::prelude::*;
 
+/// Farthest that a river strays.
+const MOST_WANDER_RAD: f64 = 0.5;
 /// Points painted at a time.
 const CHUNK: usize = 4096;
 
@@ -29,7 +31,7 @@ impl Edits {
     }
 
     /// Rivers whose courses are drawn by hand, in the order of the edits.
-    pub(crate) fn courses(&self) -> &[Course] {
+    pub(crate) fn courses(&self) -> &[DrawnCourse] {
         &self.courses
     }
 
@@ -64,12 +66,12 @@ impl Edits {
 }
 
 /// The rivers of a roster whose courses are drawn by hand.
-pub(super) fn courses_of(roster: &Roster, radius_m: f64) -> Vec<Course> {
+pub(super) fn courses_of(roster: &Roster, radius_m: f64) -> Vec<DrawnCourse> {
     let course = |edit: &crate::planet::GroundEdit| match edit.tool {
         Tool::River(RiverCourse { spring_m3_s, cut }) => {
             let points = edit.points.0.iter().map(EditPoint::direction).collect();
-            let wander_rad = edit.raggedness * edit.radius_km * 1000.0 / radius_m;
-            Some(Course { points, wander_rad, seed: edit.seed, spring_m3_s, cut })
+            let wander_rad = (edit.raggedness * edit.radius_km * 1000.0 / radius_m).min(MOST_WANDER_RAD);
+            Some(DrawnCourse { points, wander_rad, seed: edit.seed, spring_m3_s, cut })
         }
         _ => None,
     };

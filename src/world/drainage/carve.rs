@@ -10,7 +10,7 @@
 //! (Pelletier 2021); ground never stands steeper than the talus.
 
 use super::route::{Jumps, Routes};
-use super::{DISCHARGE_UNIT, Level};
+use super::{DISCHARGE_UNIT, Level, YEAR_S};
 use crate::planet::Rivers as Params;
 use crate::world::EARTH_KM;
 use rayon::prelude::*;
@@ -28,9 +28,8 @@ const HILLSLOPE: f64 = 0.2;
 /// Slope of the bed that a river of 1 m³/s lays down.
 const ALLUVIAL_SLOPE: f64 = 5e-4;
 
-/// The Earth's radius in metres, and seconds in a year.
+/// The Earth's radius in metres.
 const EARTH_M: f64 = 1000.0 * EARTH_KM;
-const YEAR_S: f64 = 3.156e7;
 
 /// Discharge in m³/s on a planet of the Earth's size.
 pub(super) fn earthly_m3_s(units: u64) -> f64 {

@@ -1,24 +1,30 @@
 //! Rivers whose courses are drawn by hand. A trench along each, in the surface on which routes are found, gathers the
 //! water around it and leads it to the mouth. Heights of beds follow from the routes, as those of all rivers do.
 
-use super::{DISCHARGE_UNIT, flood};
+use super::{DISCHARGE_UNIT, YEAR_S, flood};
+use crate::world::cells::Cells;
 use crate::world::grid::cell_at;
+use crate::world::map::KeepGoing;
 use crate::world::noise::fbm3;
-use crate::world::sculpted::Course;
+use crate::world::sculpted::DrawnCourse;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
-/// Bends of a course: the largest are as many times longer than it strays.
+/// Waves of the largest bends in the distance by which a course strays.
 const WAVES: f64 = 0.2;
 /// Steps along a line, in cells.
 const STEP: f64 = 0.2;
-/// Seconds in a year.
-const YEAR_S: f64 = 3.156e7;
+/// How often a step is halved where it leads beyond the next cell.
+const HALVINGS: u32 = 12;
+/// Most water of all springs: the sums of discharge have room for as much again.
+const MOST_UNITS: f64 = (1_u64 << 62) as f64;
 
 /// The courses on one grid.
 #[derive(Debug, Default)]
 pub(super) struct Forced {
     chains: Vec<Chain>,
+    /// The cell of each spring, and its water.
+    springs: Vec<(u32, u64)>,
     /// Each cell of a course with the next, sorted.
     steps: Vec<(u32, u32)>,
 }
@@ -28,7 +34,6 @@ pub(super) struct Forced {
 struct Chain {
     cells: Vec<u32>,
     end: End,
-    spring: u64,
     cut: f64,
 }
 
@@ -42,21 +47,32 @@ enum End {
 }
 
 impl Forced {
-    pub(super) fn new(courses: &[Course], side: usize, radius_km: f64, is_sea: &[bool]) -> Self {
+    /// The courses on the grid of these cells. None if `keep_going` said no.
+    pub(super) fn new(
+        courses: &[DrawnCourse],
+        cells: &Cells,
+        radius_km: f64,
+        is_sea: &[bool],
+        keep_going: &KeepGoing<'_>,
+    ) -> Option<Self> {
         let mut forced = Self::default();
         let mut taken: HashSet<u32> = HashSet::new();
+        let radius_m = radius_km * 1000.0;
         for course in courses {
-            let radius_m = radius_km * 1000.0;
-            let spring = course.spring_m3_s * YEAR_S / (radius_m * radius_m) / DISCHARGE_UNIT;
-            let mut chain = Chain { cells: Vec::new(), end: End::Land, spring: spring as u64, cut: course.cut };
-            // The place of each cell in the chain.
-            let mut places: HashMap<u32, usize> = HashMap::new();
-            for cell in cells_along(course, side) {
-                if is_sea[cell as usize] {
+            if !keep_going() {
+                return None;
+            }
+            let mut chain = Chain { cells: Vec::new(), end: End::Land, cut: course.cut };
+            let (mut places, mut met): (HashMap<u32, usize>, Option<u32>) = (HashMap::new(), None);
+            for cell in cells_along(course, cells) {
+                if chain.cells.is_empty() && is_sea[cell as usize] {
                     // Before the spring, the sea is not the mouth.
-                    if chain.cells.is_empty() {
-                        continue;
-                    }
+                    continue;
+                } else if chain.cells.is_empty() && taken.contains(&cell) {
+                    // On a coarse grid two springs share a cell.
+                    met.get_or_insert(cell);
+                    continue;
+                } else if is_sea[cell as usize] {
                     chain.end = End::Sea;
                 } else if taken.contains(&cell) {
                     chain.end = End::Joins(cell);
@@ -65,13 +81,21 @@ impl Forced {
                     forced.steps.extend(chain.cells.last().map(|last| (*last, cell)));
                     break;
                 }
+                if chain.cells.last().is_some_and(|last| !cells.around(*last as usize).contains(&cell)) {
+                    break;
+                }
                 // A line that comes back to its own cell leaves the loop out.
                 if let Some(&first) = places.get(&cell) {
-                    chain.cells.drain(first..).for_each(|left_out| drop(places.remove(&left_out)));
+                    chain.cells.drain(first..).for_each(|left_out| {
+                        places.remove(&left_out);
+                    });
                 }
                 places.insert(cell, chain.cells.len());
                 chain.cells.push(cell);
             }
+            let spring = course.spring_m3_s * YEAR_S / (radius_m * radius_m) / DISCHARGE_UNIT;
+            let spring = spring.min(MOST_UNITS / courses.len() as f64) as u64;
+            forced.springs.extend(chain.cells.first().copied().or(met).map(|cell| (cell, spring)));
             forced.steps.extend(chain.cells.windows(2).map(|pair| (pair[0], pair[1])));
             taken.extend(&chain.cells);
             if !chain.cells.is_empty() {
@@ -80,7 +104,7 @@ impl Forced {
         }
         forced.steps.sort_unstable();
         forced.steps.dedup_by_key(|(cell, _)| *cell);
-        forced
+        Some(forced)
     }
 
     /// Whether there is none.
@@ -118,9 +142,7 @@ impl Forced {
 
     /// Adds the water of the springs to what each cell adds to its river.
     pub(super) fn add_springs(&self, source: &mut [u64]) {
-        for chain in &self.chains {
-            source[chain.cells[0] as usize] += chain.spring;
-        }
+        self.springs.iter().for_each(|(cell, spring)| source[*cell as usize] += spring);
     }
 
     /// Lets the rivers cut through rock faster than their water would.
@@ -132,38 +154,120 @@ impl Forced {
     }
 }
 
-/// The cells along a course, each next to the one before. It strays from its line, but not at its ends.
-fn cells_along(course: &Course, side: usize) -> Vec<u32> {
-    let line = line_of(&course.points, STEP * 2.0 / side as f64);
-    let mut cells: Vec<u32> = Vec::new();
-    let length_rad = line.last().map_or(0.0, |(_, along_rad)| *along_rad);
-    for (dir, along_rad) in line {
-        let mut dir = dir;
-        if course.wander_rad > 0.0 {
-            let share = (along_rad.min(length_rad - along_rad) / (2.0 * course.wander_rad)).clamp(0.0, 1.0);
-            let aside = fbm3(dir, WAVES / course.wander_rad, 4, 0.5, course.seed);
-            dir = (dir + aside * (2.0 * share * course.wander_rad)).normalize_or(dir);
-        }
-        let cell = cell_at(side, dir) as u32;
-        if cells.last() != Some(&cell) {
-            cells.push(cell);
-        }
-    }
-    cells
+/// A course between two of its points.
+struct Segment<'a> {
+    course: &'a DrawnCourse,
+    ends: [DVec3; 2],
+    /// Length of the course before the first end, of the segment, and of the whole course, as angles.
+    before_rad: f64,
+    length_rad: f64,
+    whole_rad: f64,
 }
 
-/// Points along a line, with the length of the way to each.
-fn line_of(points: &[DVec3], step_rad: f64) -> Vec<(DVec3, f64)> {
-    let mut line: Vec<(DVec3, f64)> = points.first().map(|dir| (*dir, 0.0)).into_iter().collect();
-    let mut begin_rad = 0.0;
-    for pair in points.windows(2) {
-        let length_rad = pair[0].angle_between(pair[1]);
-        let steps = (length_rad / step_rad).ceil().max(1.0);
-        for step in 1..=steps as usize {
-            let share = step as f64 / steps;
-            line.push((pair[0].lerp(pair[1], share).normalize_or(pair[1]), begin_rad + share * length_rad));
+impl Segment<'_> {
+    /// The direction at a share of the segment. The course strays from its line, but not at its ends.
+    fn at(&self, share: f64) -> DVec3 {
+        let dir = self.ends[0].lerp(self.ends[1], share).normalize_or(self.ends[1]);
+        let wander_rad = self.course.wander_rad;
+        if wander_rad <= 0.0 {
+            return dir;
         }
-        begin_rad += length_rad;
+        let along_rad = self.before_rad + share * self.length_rad;
+        let free = (along_rad.min(self.whole_rad - along_rad) / (2.0 * wander_rad)).clamp(0.0, 1.0);
+        let aside = fbm3(dir, WAVES / wander_rad, 4, 0.5, self.course.seed);
+        (dir + aside * (2.0 * free * wander_rad)).normalize_or(dir)
     }
-    line
+}
+
+/// The cells along a course, each beside the one before.
+fn cells_along(course: &DrawnCourse, cells: &Cells) -> Vec<u32> {
+    let Some(&first) = course.points.first() else { return Vec::new() };
+    let lengths_rad: Vec<f64> = course.points.windows(2).map(|pair| angle(pair[0], pair[1])).collect();
+    let whole_rad: f64 = lengths_rad.iter().sum();
+    let step_rad = STEP * 2.0 / cells.side as f64;
+    let (mut along, mut before_rad) = (vec![cell_at(cells.side, first) as u32], 0.0);
+    for (pair, &length_rad) in course.points.windows(2).zip(&lengths_rad) {
+        let segment = Segment { course, ends: [pair[0], pair[1]], before_rad, length_rad, whole_rad };
+        let steps = (length_rad / step_rad).ceil().max(1.0);
+        for step in 0..steps as usize {
+            walk(&segment, cells, [step as f64 / steps, (step + 1) as f64 / steps], HALVINGS, &mut along);
+        }
+        before_rad += length_rad;
+    }
+    along
+}
+
+/// Goes on to the end of a part of a segment, cell by cell.
+fn walk(segment: &Segment<'_>, cells: &Cells, [from, to]: [f64; 2], halvings: u32, along: &mut Vec<u32>) {
+    let cell = cell_at(cells.side, segment.at(to)) as u32;
+    let Some(&last) = along.last() else { return };
+    if cell == last {
+        return;
+    }
+    if halvings == 0 || cells.around(last as usize).contains(&cell) {
+        along.push(cell);
+        return;
+    }
+    let middle = 0.5 * (from + to);
+    walk(segment, cells, [from, middle], halvings - 1, along);
+    walk(segment, cells, [middle, to], halvings - 1, along);
+}
+
+/// The angle between two unit directions.
+fn angle(a: DVec3, b: DVec3) -> f64 {
+    2.0 * libm::asin((0.5 * a.distance(b)).min(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::LatLon;
+
+    #[test]
+    fn cells_of_a_course_are_neighbours_however_it_strays_and_wherever_it_runs() {
+        let at = |lat, lon| LatLon::from_degrees(lat, lon).direction();
+        // Over edges and corners of the cube, a pole, long segments, points that coincide, one point.
+        let lines = [
+            vec![at(35.2, 44.0), at(35.3, 46.0), at(-35.0, 136.0)],
+            vec![at(80.0, 10.0), at(85.0, -170.0), at(20.0, -120.0)],
+            vec![at(0.0, 0.0), at(0.0, 119.0)],
+            vec![at(5.0, 5.0), at(5.0, 5.0), at(5.5, 5.0)],
+            vec![at(-12.0, 70.0)],
+        ];
+        for side in [16, 64, 256] {
+            let cells = Cells::of(side);
+            for points in &lines {
+                for wander_rad in [0.0, 0.003, 0.02, 0.1, 0.5] {
+                    let course =
+                        DrawnCourse { points: points.clone(), wander_rad, seed: 7, spring_m3_s: 1.0, cut: 0.5 };
+                    let along = cells_along(&course, &cells);
+                    assert_eq!(along[0], cell_at(side, points[0]) as u32);
+                    assert_eq!(along[along.len() - 1], cell_at(side, points[points.len() - 1]) as u32);
+                    for pair in along.windows(2) {
+                        let around = cells.around(pair[0] as usize);
+                        assert!(around.contains(&pair[1]), "{side} {wander_rad} {points:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn springs_that_share_a_cell_keep_their_water_and_the_greatest_do_not_overflow() {
+        let cells = Cells::of(16);
+        let land = vec![false; 6 * 16 * 16];
+        let course = |lat: f64, spring_m3_s: f64| {
+            let points = [10.0, 40.0].map(|lon| LatLon::from_degrees(lat, lon).direction()).to_vec();
+            DrawnCourse { points, wander_rad: 0.0, seed: 1, spring_m3_s, cut: 0.0 }
+        };
+        let water = |courses: &[DrawnCourse], radius_km: f64| {
+            let mut source = vec![0_u64; land.len()];
+            Forced::new(courses, &cells, radius_km, &land, &|| true).unwrap().add_springs(&mut source);
+            source.into_iter().map(u128::from).sum::<u128>()
+        };
+        let one = water(&[course(5.0, 1000.0)], 6371.0);
+        assert!(one > 0 && water(&[course(5.0, 1000.0), course(5.5, 1000.0)], 6371.0) == 2 * one);
+        let many: Vec<DrawnCourse> = (0..300).map(|k| course(f64::from(k) * 0.2, 5e5)).collect();
+        assert!(water(&many, 1.0) < 1 << 63);
+    }
 }

@@ -22,7 +22,7 @@ use super::cells::Cells;
 use super::grid::{areas_sr, node};
 use super::map::KeepGoing;
 use super::noise::{hash, unit};
-use super::sculpted::Course;
+use super::sculpted::DrawnCourse;
 use crate::planet::Rivers as Params;
 pub(crate) use basins::Basins;
 use forced::Forced;
@@ -33,6 +33,9 @@ use route::Routes;
 
 /// The unit of summed discharge: m³ a year on a sphere of radius 1 m.
 pub(super) const DISCHARGE_UNIT: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// Seconds in a year.
+pub(super) const YEAR_S: f64 = 3.156e7;
 
 /// What the rivers of a planet depend on, at the cells of one grid.
 pub(crate) struct Inputs<'a> {
@@ -54,7 +57,7 @@ pub(crate) struct Inputs<'a> {
     /// Water that runs off, in mm a year.
     pub(crate) runoff_mm: &'a [f64],
     /// Rivers whose courses are drawn by hand.
-    pub(crate) courses: &'a [Course],
+    pub(crate) courses: &'a [DrawnCourse],
     /// What a lake loses to the air beyond the rain that falls on it, in mm a year. Below zero where it gains.
     pub(crate) dryness_mm: &'a [f64],
 }
@@ -176,7 +179,7 @@ impl Drainage {
             slowness: Vec::new(),
             forced: Forced::default(),
         };
-        let nodes = level.complete(inputs, &cells, seed);
+        let nodes = level.complete(inputs, &cells, seed, keep_going)?;
         let mut source = level.source(inputs);
         level.forced.add_springs(&mut source);
         let mut surface_m = start::surface(&level, &cells, coarser, seed);
@@ -214,7 +217,7 @@ impl Drainage {
             .map(|cell| (if level.is_sea[cell] { level.start_m[cell] } else { ground_m[cell] }) as f32)
             .collect();
         let radius_m = inputs.radius_km * 1000.0;
-        let true_m3_s = |units: &u64| (*units as f64 * (DISCHARGE_UNIT * radius_m * radius_m / 3.156e7)) as f32;
+        let true_m3_s = |units: &u64| (*units as f64 * (DISCHARGE_UNIT * radius_m * radius_m / YEAR_S)) as f32;
         let mouths = start::mouths(&level, &routes, &discharge, &nodes, coarser, seed);
         Some(Self {
             side: inputs.side,
@@ -235,8 +238,15 @@ impl Drainage {
 }
 
 impl Level<'_> {
-    /// Sets what follows from the sea and the land. Answers the nodes of land and of the sea beside it.
-    fn complete(&mut self, inputs: &Inputs<'_>, cells: &Cells, seed: u32) -> Vec<DVec3> {
+    /// Sets what follows from the sea and the land. Answers the nodes of land and of the sea beside it; None if
+    /// `keep_going` said no.
+    fn complete(
+        &mut self,
+        inputs: &Inputs<'_>,
+        cells: &Cells,
+        seed: u32,
+        keep_going: &KeepGoing<'_>,
+    ) -> Option<Vec<DVec3>> {
         let (all, is_sea) = (0..self.is_sea.len(), &self.is_sea);
         let meets = |cell: usize, sea: bool| cells.around(cell).iter().any(|&other| is_sea[other as usize] == sea);
         self.land = all.clone().filter(|&cell| !is_sea[cell]).map(|cell| cell as u32).collect();
@@ -245,12 +255,12 @@ impl Level<'_> {
             if is_sea[cell] { 0.0 } else { carve::slowness(self.params, inputs.softness[cell]) }
         };
         self.slowness = all.clone().into_par_iter().with_min_len(1024).map(slowness).collect();
-        self.forced = Forced::new(inputs.courses, inputs.side, inputs.radius_km, is_sea);
+        self.forced = Forced::new(inputs.courses, cells, inputs.radius_km, is_sea, keep_going)?;
         self.forced.cut(&mut self.slowness);
         let place = |cell: usize| {
             if is_sea[cell] && !meets(cell, false) { DVec3::ZERO } else { node(inputs.side, cell, seed) }
         };
-        all.into_par_iter().with_min_len(1024).map(place).collect()
+        Some(all.into_par_iter().with_min_len(1024).map(place).collect())
     }
 
     /// Heights for the flood, with `rough` of the cell and its height above the base added.

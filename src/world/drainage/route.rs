@@ -30,8 +30,8 @@ const GROUP: usize = 2048;
 const NONE: u32 = u32::MAX;
 
 impl Routes {
-    /// The steepest way down from each cell of a filled surface, or the way of a course that is drawn by hand. Ways over
-    /// two diagonals never cross.
+    /// The steepest way down from each cell of a filled surface, or the way of a course that is drawn by hand. Ways
+    /// over two diagonals never cross.
     pub(super) fn new(cells: &Cells, nodes: &[DVec3], units: &[u32], level: &Level<'_>) -> Self {
         let Level { land, is_sea, forced, .. } = level;
         let steepest = |cell: usize| {

@@ -22,7 +22,7 @@ pub(super) fn place(rect: egui::Rect) -> Option<egui::Rect> {
 pub(super) fn show(
     ui: &mut egui::Ui,
     (rect, number): (egui::Rect, usize),
-    has_structure: bool,
+    choices: impl Iterator<Item = Shows>,
     shows: &mut Shows,
     linked: &mut bool,
 ) {
@@ -31,7 +31,7 @@ pub(super) fn show(
     let ui = &mut ui.new_child(egui::UiBuilder::new().id_salt(("bar", number)).max_rect(place).layout(layout));
     let of = number + 1;
     let menu = menu_button(ui, shows.label(), |ui| {
-        for choice in Shows::all(has_structure) {
+        for choice in choices {
             if ui.selectable_label(*shows == choice, choice.label()).clicked() {
                 *shows = choice;
                 ui.close();

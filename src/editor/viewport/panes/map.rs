@@ -183,7 +183,8 @@ impl Map {
 /// Whether two terrains have the same map.
 fn same_map(a: &Terrain, b: &Terrain) -> bool {
     let changes = b.keys().changes_since(a.keys());
-    !changes.touches_tiles() && !changes.contains(Stage::Material)
+    // The ground is seen through the water over it.
+    !changes.touches_tiles() && !changes.contains(Stage::Material) && a.planet().water == b.planet().water
 }
 
 /// The colours of the ground with shaded relief.
@@ -204,7 +205,9 @@ fn picture(kind: MapKind, terrain: &Terrain) -> egui::ColorImage {
         at(right, row) - at(left, row) + at(column, below) - at(column, above)
     };
     let all = || (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
-    let land = all().filter(|(column, row)| heights_m[row * width + column] > sea_m);
+    let is_land = |(column, row): &(usize, usize)| heights_m[row * width + column] > sea_m;
+    let has_land = all().any(|place| is_land(&place));
+    let land = all().filter(|place| !has_land || is_land(place));
     let (sum, count) = land
         .fold((0.0_f64, 1_u32), |(sum, count), (column, row)| (sum + f64::from(rise(column, row).abs()), count + 1));
     let mean_m = (sum / f64::from(count)).max(1e-3) as f32;

@@ -12,14 +12,14 @@ mod map;
 mod pane;
 
 use super::Viewport;
-use super::camera::Cameras;
+use super::camera::{Cameras, Ground as _};
 use super::ground::PlanetGround;
 use crate::lod::{Camera, View};
 use crate::planet::Planet;
 use crate::render::DebugView;
 use eframe::egui;
 use glam::DVec3;
-pub(super) use map::MapKind;
+pub use map::MapKind;
 use pane::Pane;
 pub(super) use pane::PaneSubject;
 
@@ -29,23 +29,23 @@ const GAP: f32 = 2.0;
 /// How many panes the viewport has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
-pub enum Layout {
+pub enum PaneLayout {
     #[default]
     One,
     Two,
     Four,
 }
 
-impl Layout {
+impl PaneLayout {
     /// All layouts.
-    pub const ALL: [Layout; 3] = [Layout::One, Layout::Two, Layout::Four];
+    pub const ALL: [PaneLayout; 3] = [PaneLayout::One, PaneLayout::Two, PaneLayout::Four];
 
     /// How many panes it has.
     pub fn panes(self) -> usize {
         match self {
-            Layout::One => 1,
-            Layout::Two => 2,
-            Layout::Four => 4,
+            PaneLayout::One => 1,
+            PaneLayout::Two => 2,
+            PaneLayout::Four => 4,
         }
     }
 
@@ -56,9 +56,9 @@ impl Layout {
             [left.with_max_x(left.right() - 0.5 * GAP), right.with_min_x(right.left() + 0.5 * GAP)]
         };
         match self {
-            Layout::One => vec![all],
-            Layout::Two => halves(all).to_vec(),
-            Layout::Four => {
+            PaneLayout::One => vec![all],
+            PaneLayout::Two => halves(all).to_vec(),
+            PaneLayout::Four => {
                 let (top, bottom) = all.split_top_bottom_at_fraction(0.5);
                 let rows = [top.with_max_y(top.bottom() - 0.5 * GAP), bottom.with_min_y(bottom.top() + 0.5 * GAP)];
                 rows.into_iter().flat_map(halves).collect()
@@ -77,10 +77,10 @@ pub enum Shows {
 }
 
 impl Shows {
-    /// All that a planet has.
-    pub fn all(has_structure: bool) -> impl Iterator<Item = Shows> {
+    /// All that a planet has; maps if there `may_be_map`s.
+    pub fn all(has_structure: bool, may_be_map: bool) -> impl Iterator<Item = Shows> {
         let views = DebugView::ALL.into_iter().filter(move |view| has_structure || !view.needs_structure());
-        views.map(Shows::Planet).chain(MapKind::ALL.into_iter().map(Shows::Map))
+        views.map(Shows::Planet).chain(MapKind::ALL.into_iter().filter(move |_| may_be_map).map(Shows::Map))
     }
 
     /// The name in menus.
@@ -94,22 +94,23 @@ impl Shows {
 
 /// The panes of the viewport.
 pub(super) struct Panes {
-    layout: Layout,
+    layout: PaneLayout,
     /// Place of the active pane.
     pub(super) active: usize,
     /// Whether the active pane shares its camera.
     linked: bool,
     /// By place; none at that of the active pane.
     others: Vec<Option<Pane>>,
-    /// The camera of linked panes while the active one is not linked.
-    shared: Option<Cameras>,
+    /// The camera of linked panes while the active one is not linked, and the radius of the reference sphere over which
+    /// it is placed.
+    shared: Option<(Cameras, f64)>,
     /// The direction that was clicked on a map.
     chosen: Option<DVec3>,
 }
 
 impl Default for Panes {
     fn default() -> Self {
-        Self { layout: Layout::One, active: 0, linked: true, others: vec![None], shared: None, chosen: None }
+        Self { layout: PaneLayout::One, active: 0, linked: true, others: vec![None], shared: None, chosen: None }
     }
 }
 
@@ -121,7 +122,7 @@ pub(super) struct Place {
 
 impl Viewport {
     /// How many panes there are.
-    pub fn layout(&self) -> Layout {
+    pub fn layout(&self) -> PaneLayout {
         self.panes.layout
     }
 
@@ -152,8 +153,8 @@ impl Viewport {
         self.panes.active
     }
 
-    /// Sets how many panes there are. The active one stays; new ones show what it does not.
-    pub fn set_layout(&mut self, layout: Layout) {
+    /// Sets how many panes there are. The active one stays; new ones show what no other does.
+    pub fn set_layout(&mut self, layout: PaneLayout) {
         if layout == self.panes.layout {
             return;
         }
@@ -161,14 +162,18 @@ impl Viewport {
         let mut others: Vec<Pane> = std::mem::take(&mut self.panes.others).into_iter().flatten().collect();
         others.truncate(layout.panes() - 1);
         let first: &[Shows] = match layout {
-            Layout::One => &[],
-            Layout::Two => &[Shows::Map(MapKind::Flat)],
-            Layout::Four => {
-                &[Shows::Planet(DebugView::Height), Shows::Planet(DebugView::Biome), Shows::Map(MapKind::Flat)]
-            }
+            PaneLayout::One => &[],
+            PaneLayout::Two => &[Shows::Map(MapKind::Flat)],
+            PaneLayout::Four => &[
+                Shows::Planet(DebugView::Height),
+                Shows::Planet(DebugView::Biome),
+                Shows::Map(MapKind::Flat),
+                Shows::Planet(DebugView::Shaded),
+            ],
         };
         for &shows in first {
-            let is_new = !others.iter().any(|pane| pane.shows == shows);
+            let is_shown = shows == Shows::Planet(self.settings.debug_view);
+            let is_new = !is_shown && !others.iter().any(|pane| pane.shows == shows);
             if is_new && others.len() + 1 < layout.panes() {
                 others.push(Pane::new(shows, self.picture.sibling(), self.cameras.clone(), &self.ctx));
             }
@@ -212,6 +217,10 @@ impl Viewport {
 
     /// Gives a pane that shows the planet the tools.
     fn activate(&mut self, number: usize) {
+        // A flight goes on in its own pane.
+        if self.travel.is_some() || self.is_landing {
+            return;
+        }
         let Some(slot) = self.panes.others.get_mut(number) else { return };
         let Some(mut pane) = slot.take_if(|pane| matches!(pane.shows, Shows::Planet(_))) else { return };
         if let Shows::Planet(view) = pane.shows {
@@ -220,7 +229,7 @@ impl Viewport {
         std::mem::swap(&mut self.picture, &mut pane.picture);
         std::mem::swap(&mut self.cameras, &mut pane.cameras);
         std::mem::swap(&mut self.panes.linked, &mut pane.linked);
-        self.frozen = None;
+        std::mem::swap(&mut self.frozen, &mut pane.frozen);
         self.drag = super::input::Drag::None;
         let before = std::mem::replace(&mut self.panes.active, number);
         self.panes.others[before] = Some(pane);
@@ -228,12 +237,15 @@ impl Viewport {
 
     /// The views that the builder makes tiles for, pane by pane. `own`: that of the active pane.
     pub(super) fn pane_views(&mut self, valid: &Planet, own: View, ground: &PlanetGround<'_>) -> Vec<View> {
-        let panes = &mut self.panes;
+        let (panes, radius_m) = (&mut self.panes, ground.radius_m());
         if panes.linked {
-            panes.shared = Some(self.cameras.clone());
+            panes.shared = Some((self.cameras.clone(), radius_m));
+        } else if let Some((shared, before_m)) = panes.shared.as_mut().filter(|(_, before_m)| *before_m != radius_m) {
+            shared.rescale(*before_m, radius_m, ground);
+            *before_m = radius_m;
         }
         let pixels_per_point = self.ctx.pixels_per_point();
-        let shared = panes.shared.as_ref();
+        let shared = panes.shared.as_ref().map(|(shared, _)| shared);
         let mut views = Vec::with_capacity(panes.others.len());
         for pane in &mut panes.others {
             views.push(match pane {
@@ -246,7 +258,7 @@ impl Viewport {
 
     /// Draws the panes beside the active one, and their menus.
     pub(super) fn show_panes(&mut self, ui: &mut egui::Ui, rect: egui::Rect, shared: &PaneSubject<'_>) {
-        if self.panes.layout == Layout::One {
+        if self.panes.layout == PaneLayout::One {
             return;
         }
         let eye = self.shown_camera;
@@ -257,14 +269,16 @@ impl Viewport {
             let surface = self.builder.surface_of(number);
             pane.show(ui, shared, surface.as_ref(), eye.as_ref());
             chosen = chosen.or(pane.take_chosen());
-            bar::show(ui, (pane.rect(), number), shared.has_structure, &mut pane.shows, &mut pane.linked);
+            let choices = Shows::all(shared.has_structure, true);
+            bar::show(ui, (pane.rect(), number), choices, &mut pane.shows, &mut pane.linked);
         }
         self.panes.others = others;
         let mut own = Shows::Planet(self.settings.debug_view);
-        bar::show(ui, (rect, self.panes.active), shared.has_structure, &mut own, &mut self.panes.linked);
+        // A map has no tools: another pane must be able to take them.
+        let choices = Shows::all(shared.has_structure, self.other_planet_pane().is_some());
+        bar::show(ui, (rect, self.panes.active), choices, &mut own, &mut self.panes.linked);
         match own {
             Shows::Planet(view) => self.settings.debug_view = view,
-            // A map has no tools: another pane becomes the active one.
             Shows::Map(_) => self.leave_to(own),
         }
         ui.painter().rect_stroke(
@@ -279,12 +293,25 @@ impl Viewport {
     /// Gives the tools to another pane that shows the planet, if there is one, and shows something else here.
     fn leave_to(&mut self, shows: Shows) {
         let here = self.panes.active;
-        let is_planet = |slot: &Option<Pane>| slot.as_ref().is_some_and(|pane| matches!(pane.shows, Shows::Planet(_)));
-        if let Some(number) = self.panes.others.iter().position(is_planet) {
+        if let Some(number) = self.other_planet_pane() {
             self.activate(number);
             if let Some(Some(pane)) = self.panes.others.get_mut(here) {
                 pane.shows = shows;
             }
+        }
+    }
+
+    /// Place of a pane beside the active one that shows the planet.
+    fn other_planet_pane(&self) -> Option<usize> {
+        let is_planet = |slot: &Option<Pane>| slot.as_ref().is_some_and(|pane| matches!(pane.shows, Shows::Planet(_)));
+        self.panes.others.iter().position(is_planet)
+    }
+
+    /// Looks at the planet in all panes as the active one does.
+    pub(super) fn reset_panes(&mut self) {
+        self.panes.shared = None;
+        for pane in self.panes.others.iter_mut().flatten() {
+            pane.cameras = self.cameras.clone();
         }
     }
 
@@ -299,6 +326,11 @@ impl Viewport {
 
 /// The pictures of the panes beside the active one.
 impl Panes {
+    /// Keeps the pictures as they are until there are surfaces of another body.
+    pub(super) fn wait_for_surfaces(&mut self) {
+        self.others.iter_mut().flatten().for_each(|pane| pane.picture.wait_for_surface());
+    }
+
     /// Lets refinement wait in all panes.
     pub(super) fn touched(&mut self, now_secs: f64) {
         self.others.iter_mut().flatten().for_each(|pane| pane.picture.refinement.touched(now_secs));
@@ -312,14 +344,14 @@ mod tests {
     #[test]
     fn panes_tile_the_viewport_row_by_row() {
         let all = egui::Rect::from_min_size(egui::pos2(10.0, 20.0), egui::vec2(802.0, 602.0));
-        for layout in Layout::ALL {
+        for layout in PaneLayout::ALL {
             let rects = layout.rects(all);
             assert_eq!(rects.len(), layout.panes());
             assert!(rects.iter().all(|rect| all.contains_rect(*rect) && rect.is_positive()));
             let area: f32 = rects.iter().map(egui::Rect::area).sum();
             assert!(area > 0.99 * all.area() && rects[0].min == all.min && rects[rects.len() - 1].max == all.max);
         }
-        let four = Layout::Four.rects(all);
+        let four = PaneLayout::Four.rects(all);
         assert!(four[1].left() > four[0].right() && four[1].top() == four[0].top() && four[2].left() == all.left());
     }
 }

@@ -41,6 +41,8 @@ pub(super) struct Pane {
     pub(super) cameras: Cameras,
     /// Radius of the reference sphere over which its camera is placed; 0 at first.
     ground_radius_m: f64,
+    /// The view whose tiles were kept when it was the active one.
+    pub(super) frozen: Option<View>,
     map: Map,
     view: Option<View>,
     rect: egui::Rect,
@@ -60,6 +62,7 @@ impl Pane {
             picture,
             cameras,
             ground_radius_m: 0.0,
+            frozen: None,
             map: Map::new(ctx),
             view: None,
             rect: egui::Rect::NOTHING,
