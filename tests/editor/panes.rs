@@ -103,3 +103,24 @@ fn a_click_on_the_map_flies_there() {
     assert!(lat_deg.abs() < 2.0 && (lon_deg - 45.0).abs() < 2.0, "{lat_deg} {lon_deg}");
     assert_eq!(harness.state().viewport().active_pane(), 0, "a map has no tools");
 }
+
+#[test]
+fn views_of_their_own_keep_their_distance_in_radii_when_the_radius_changes() {
+    let mut harness = with_views(PaneLayout::Four);
+    let radii = |harness: &Editor, place: usize| eye_m(harness, place).length() / (planet(harness).radius_km * 1000.0);
+    // The active view goes its own way, then the third: the others are linked.
+    for (place, name) in [(0, "View 1 linked"), (2, "View 3 linked")] {
+        click(&mut harness, name);
+        let from = rect(&harness, place).center();
+        app::drag(&mut harness, from, from + egui::vec2(30.0, 0.0));
+    }
+    let before = [0, 1, 2].map(|place| radii(&harness, place));
+    click(&mut harness, "Planet");
+    let twice_km = 2.0 * planet(&harness).radius_km;
+    slide(&mut harness, "Radius of planet", twice_km);
+    wait_for_picture(&mut harness);
+    for (place, before) in before.into_iter().enumerate() {
+        let after = radii(&harness, place);
+        assert!((after / before - 1.0).abs() < 0.01, "view {place}: {before} radii, then {after}");
+    }
+}
