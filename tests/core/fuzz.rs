@@ -12,7 +12,8 @@ use tellus::terrain::Revision;
 /// Cases in the suite, and in the long tests.
 const CASES: u64 = 20_000;
 const LONG_CASES: u64 = 1_000_000;
-/// Of so many cases, how many are a large preset, a system, a picture.
+/// Each run of `OF` cases begins with large presets. Systems follow up to the case `SYSTEMS`, pictures up to the case
+/// `PICTURES`. The rest are small presets.
 const OF: u64 = 100;
 const LARGE: u64 = 4;
 const SYSTEMS: u64 = 15;
@@ -70,15 +71,20 @@ const BITS: [&str; 22] = [
 /// A small preset with most kinds of values.
 fn small() -> String {
     format!(
-        "(version: {VERSION}, name: \"Islet\", seed: 7, radius_km: 40.0, height_curve: [(-100, -50), (0, 10), (900, 400)],
+        "(version: {VERSION}, name: \"Islet\", seed: 7, radius_km: 40.0,
+height_curve: [(-100, -50), (0, 10), (900, 400)],
 layers: [
 (name: \"Hills\", amplitude_m: 800.0, shape: Fbm(wavelength_km: 12.0, octaves: 8), curve: [(-1, 0), (1, 1)]),
-(name: \"Crags\", blend: SmoothMax, shape: Ridged(wavelength_km: 5.0), masks: [Layer(layer: \"Hills\", from: 0.0, to: 0.2)]),
+(name: \"Crags\", blend: SmoothMax, shape: Ridged(wavelength_km: 5.0),
+masks: [Layer(layer: \"Hills\", from: 0.0, to: 0.2)]),
 ],
 water: (level_m: -50.0), atmosphere: (), clouds: None, structure: None,
-biomes: (rows: Temperature, palette: [(key: 'a', name: \"Grass\", color: (0.1, 0.2, 0.05)), (key: 'b')], table: [\"aab\", \"bba\"]),
+biomes: (rows: Temperature, palette: [(key: 'a', name: \"Grass\", color: (0.1, 0.2, 0.05)), (key: 'b')],
+table: [\"aab\", \"bba\"]),
 edits: [(name: \"Old fire\", tool: Volcano(height_m: 3200, caldera: 0.15), points: [(12.5, -45)]),
-(tool: Road(), radius_km: 0.5, points: [(12.1, -45.2, 310), (12.2, -45.1, 460)]), (tool: Uplift(), points: [(1, 2)])], editor: (bookmarks: [(name: \"Bay\", latitude_deg: 3, altitude_m: 500)]))"
+(tool: Road(), radius_km: 0.5, points: [(12.1, -45.2, 310), (12.2, -45.1, 460)]),
+(tool: Uplift(), points: [(1, 2)])],
+editor: (bookmarks: [(name: \"Bay\", latitude_deg: 3, altitude_m: 500)]))"
     )
 }
 

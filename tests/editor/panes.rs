@@ -5,7 +5,7 @@ use super::*;
 use tellus::editor::viewport::panes::{PaneLayout, Shows};
 use tellus::render::DebugView;
 
-/// An editor with so many views, whose debug view is drawn fast.
+/// An editor with these panes. Its active pane shows the LOD levels, which are drawn fast.
 fn with_views(layout: PaneLayout) -> Editor {
     let mut harness = app::open_at_rate([1400.0, 800.0], vec![], 8.0);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::Num8);

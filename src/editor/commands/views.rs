@@ -14,9 +14,7 @@ fn panes(layout: PaneLayout) -> Row {
     let (label, tooltip, key) = match layout {
         PaneLayout::One => ("One view", "Give the view with the tools all the room.", Key::Num1),
         PaneLayout::Two => ("Two views", "Show a map, or another view of the planet, beside this one.", Key::Num2),
-        PaneLayout::Four => {
-            ("Four views", "Show the planet four times: heights, biomes and a map beside it.", Key::Num4)
-        }
+        PaneLayout::Four => ("Four views", "Show heights, biomes and a map beside the planet.", Key::Num4),
     };
     Row::new(Command::Panes(layout), label, tooltip, move |s, _| s.viewport.set_layout(layout))
         .within(Menu::View, 1)

@@ -25,6 +25,8 @@ const RELIEF: f32 = 0.22;
 const UNDER_SEA: f32 = 0.35;
 /// Steps of the graticule, degrees.
 const GRID_DEG: i32 = 30;
+/// Longest stroke of a line, as a share of the map's width.
+const LONGEST_STROKE: f32 = 0.4;
 
 /// How a map shows the globe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,9 +105,10 @@ impl MapKind {
 
 /// The maps of a pane, made on another thread.
 pub(super) struct Map {
-    surveyors: Option<[Surveyor<egui::ColorImage>; 3]>,
+    surveyors: Option<[Surveyor<Arc<egui::ColorImage>>; 3]>,
     ctx: egui::Context,
-    texture: Option<(MapKind, usize, egui::TextureHandle)>,
+    /// The texture on screen, and the picture that it holds.
+    texture: Option<(MapKind, Arc<egui::ColorImage>, egui::TextureHandle)>,
 }
 
 impl Map {
@@ -117,8 +120,11 @@ impl Map {
     pub(super) fn ask(&mut self, kind: MapKind, terrain: &Arc<Terrain>) {
         let ctx = &self.ctx;
         let surveyors = self.surveyors.get_or_insert_with(|| {
-            let made: [fn(&Terrain) -> egui::ColorImage; 3] =
-                [|t| picture(MapKind::Flat, t), |t| picture(MapKind::North, t), |t| picture(MapKind::South, t)];
+            let made: [fn(&Terrain) -> Arc<egui::ColorImage>; 3] = [
+                |terrain| picture(MapKind::Flat, terrain).into(),
+                |terrain| picture(MapKind::North, terrain).into(),
+                |terrain| picture(MapKind::South, terrain).into(),
+            ];
             made.map(|survey| {
                 let ctx = ctx.clone();
                 Surveyor::new(survey, same_map, move || ctx.request_repaint())
@@ -141,13 +147,12 @@ impl Map {
         let width = rect.width().min(rect.height() * aspect);
         let on = egui::Rect::from_center_size(rect.center(), vec2(width, width / aspect));
         let painter = ui.painter_at(rect);
-        if let Some(image) = self.surveyors.as_ref().and_then(|surveyors| surveyors[kind as usize].found()) {
-            // A new picture has other pixels at another address.
-            let address = image.pixels.as_ptr() as usize;
-            if !self.texture.as_ref().is_some_and(|(of, at, _)| (*of, *at) == (kind, address)) {
-                let texture = ui.ctx().load_texture("map of the globe", image.clone(), egui::TextureOptions::LINEAR);
-                self.texture = Some((kind, address, texture));
-            }
+        if let Some(image) = self.surveyors.as_ref().and_then(|surveyors| surveyors[kind as usize].found())
+            && !self.texture.as_ref().is_some_and(|(_, held, _)| Arc::ptr_eq(held, image))
+        {
+            let data = egui::ImageData::Color(image.clone());
+            let texture = ui.ctx().load_texture("map of the globe", data, egui::TextureOptions::LINEAR);
+            self.texture = Some((kind, image.clone(), texture));
         }
         match self.texture.as_ref().filter(|(of, ..)| *of == kind) {
             Some((.., texture)) => {
@@ -162,7 +167,7 @@ impl Map {
         graticule(&painter, kind, on);
         if let Some(edit) = selected {
             let dirs: Vec<DVec3> = edit.points.0.iter().map(EditPoint::direction).collect();
-            line(&painter, kind, on, &dirs, Stroke::new(1.5, Color32::from_rgb(255, 220, 90)));
+            marked_line(&painter, kind, on, &dirs, Stroke::new(1.5, Color32::from_rgb(255, 220, 90)));
         }
         if let Some(eye) = eye {
             mark_eye(&painter, kind, on, eye);
@@ -230,16 +235,21 @@ fn on_map(kind: MapKind, on: egui::Rect, dir_planet: DVec3) -> Option<Pos2> {
     Some(on.min + vec2(x as f32, y as f32) * on.size())
 }
 
-/// A line through directions, without the strokes that would cross the whole map.
+/// A line through directions. A stroke over the edge of the map would cross all of it, and is left out.
 fn line(painter: &egui::Painter, kind: MapKind, on: egui::Rect, dirs: &[DVec3], stroke: Stroke) {
-    for pair in dirs.windows(2) {
-        let ends = [pair[0], pair[1]].map(|dir| on_map(kind, on, dir));
-        if let [Some(a), Some(b)] = ends
-            && a.distance(b) < 0.4 * on.width()
+    let places: Vec<Option<Pos2>> = dirs.iter().map(|dir| on_map(kind, on, *dir)).collect();
+    for pair in places.windows(2) {
+        if let [Some(a), Some(b)] = *pair
+            && a.distance(b) < LONGEST_STROKE * on.width()
         {
             painter.line_segment([a, b], stroke);
         }
     }
+}
+
+/// A line with its points.
+fn marked_line(painter: &egui::Painter, kind: MapKind, on: egui::Rect, dirs: &[DVec3], stroke: Stroke) {
+    line(painter, kind, on, dirs, stroke);
     for at in dirs.iter().filter_map(|dir| on_map(kind, on, *dir)) {
         painter.circle_filled(at, 2.0, stroke.color);
     }
@@ -247,22 +257,17 @@ fn line(painter: &egui::Painter, kind: MapKind, on: egui::Rect, dirs: &[DVec3], 
 
 fn graticule(painter: &egui::Painter, kind: MapKind, on: egui::Rect) {
     let faint = |is_main: bool| Stroke::new(1.0, Color32::from_white_alpha(if is_main { 60 } else { 26 }));
-    let point = |lat_deg: f64, lon_deg: f64| on_map(kind, on, LatLon::from_degrees(lat_deg, lon_deg).direction());
-    let draw = |from: &dyn Fn(f64) -> Option<Pos2>, steps: usize, stroke: Stroke| {
-        for step in 0..steps {
-            let ends = [step, step + 1].map(|step| from(step as f64 / steps as f64));
-            if let [Some(a), Some(b)] = ends
-                && a.distance(b) < 0.4 * on.width()
-            {
-                painter.line_segment([a, b], stroke);
-            }
-        }
+    let draw = |place: &dyn Fn(f64) -> LatLon, steps: usize, stroke: Stroke| {
+        let dirs: Vec<DVec3> = (0..=steps).map(|step| place(step as f64 / steps as f64).direction()).collect();
+        line(painter, kind, on, &dirs, stroke);
     };
     for lat_deg in (-90 + GRID_DEG..90).step_by(GRID_DEG as usize) {
-        draw(&|t| point(f64::from(lat_deg), -179.999 + 359.998 * t), 72, faint(lat_deg == 0));
+        let along = |t: f64| LatLon::from_degrees(f64::from(lat_deg), -179.999 + 359.998 * t);
+        draw(&along, 72, faint(lat_deg == 0));
     }
     for lon_deg in (-180..180).step_by(GRID_DEG as usize) {
-        draw(&|t| point(-89.9 + 179.8 * t, f64::from(lon_deg)), 24, faint(lon_deg == 0));
+        let along = |t: f64| LatLon::from_degrees(-89.9 + 179.8 * t, f64::from(lon_deg));
+        draw(&along, 24, faint(lon_deg == 0));
     }
 }
 

@@ -28,11 +28,13 @@ const GAP: f32 = 2.0;
 
 /// How many panes the viewport has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
 pub enum PaneLayout {
+    /// The view with the tools alone.
     #[default]
     One,
+    /// Two side by side.
     Two,
+    /// Two rows of two.
     Four,
 }
 
