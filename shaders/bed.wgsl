@@ -7,6 +7,8 @@ const BED_PASSES: u32 = 3u;
 const FIRST_DEPTH_M: f32 = 3.0;
 // Distance of ground where the picture has none, metres.
 const NO_BED_M: f32 = 1e5;
+// Distance of those pixels that looks at different ground.
+const APART_PX: f32 = 8.0;
 
 // A point of the ground in a pixel, relative to the eye, metres.
 fn ground_in(pixel: vec2f) -> vec3f {
@@ -40,11 +42,13 @@ fn column_under(calm_m: vec3f, up: vec3f, footprint_m: f32, ice: f32) -> Column 
             low = min(low, pixels[i]);
             high = max(high, pixels[i]);
         }
-        // All three move into the picture together, so that they stay apart.
+        // All three move into the picture together, so that they stay apart, but no farther than that needs: near the
+        // eye they are so far apart that some would leave through the other side, into the sky.
         let aside = max(-low, vec2f(0.0)) + min(frame.size_px - 1.0 - high, vec2f(0.0));
         var at: array<vec3f, 3>;
         for (var i = 0u; i < 3u; i++) {
-            let inside = clamp(pixels[i] + aside, vec2f(0.0), frame.size_px - 1.0);
+            let moved = max(pixels[i] + aside, min(pixels[i], frame.size_px - 1.0 - APART_PX));
+            let inside = clamp(min(moved, max(pixels[i], vec2f(APART_PX))), vec2f(0.0), frame.size_px - 1.0);
             let ground_m = ground_in(frame.origin_px + inside);
             let from_m = ground_m - calm_m;
             at[i] = vec3f(dot(from_m, east), dot(from_m, north), -over_sea_m(ground_m));
