@@ -8,7 +8,7 @@ struct Exposure {
     ev: f32,
 }
 
-@group(0) @binding(0) var<storage, read_write> bins: array<u32, METER_BINS + 1u>;
+@group(0) @binding(0) var<storage, read_write> bins: array<u32, COUNTERS>;
 @group(0) @binding(1) var<storage, read_write> exposure: Exposure;
 @group(0) @binding(2) var<uniform> step: MeterStep;
 
@@ -36,6 +36,12 @@ const DARKEST_MEAN_EV: f32 = -3.4;
 // Broader highlights, such as the sky around a low sun, never exceed this level.
 const BROAD_HIGHLIGHTS: f32 = 0.12;
 const BROAD_HIGHLIGHT_EV: f32 = -0.5;
+// The glow around a sun, in haze or at dusk, must keep its colours: the level in stops that no more than this share of
+// the picture exceeds as warm sky, and the share of the excess that exposure takes back, so that the ground before it
+// stays readable. Sky has little weight elsewhere: before dark ground it would burn out.
+const WARM_SHARE: f32 = 0.07;
+const WARM_EV: f32 = -1.0;
+const FOLLOWED_WARM: f32 = 0.75;
 const LIFTED_HIGHLIGHT: f32 = 0.3;
 const LIFTED_SNOW: f32 = 1.0;
 // Share of white pixels at which the lift changes from that for ground to that for snow.
@@ -55,12 +61,12 @@ const SHADOW_EV: f32 = 7.0;
 
 fn stops(bin: u32) -> f32 { return DARKEST_EV + (f32(bin) + 0.5) / BINS_PER_EV; }
 
-// Index of the bin that `count` of the counted pixels exceed, at least `first`.
-fn bin_below(count: f32, first: u32) -> u32 {
+// Index of the bin that `count` of the counted pixels exceed, at least `first`. `start`: of the histogram.
+fn bin_below(count: f32, first: u32, start: u32) -> u32 {
     var over = 0.0;
     var bin = METER_BINS - 1u;
-    while bin > first && over + f32(bins[bin]) < count {
-        over += f32(bins[bin]);
+    while bin > first && over + f32(bins[start + bin]) < count {
+        over += f32(bins[start + bin]);
         bin--;
     }
     return bin;
@@ -79,7 +85,7 @@ fn corrected(mean_ev: f32) -> f32 {
 fn compute() {
     var all = 0.0;
     for (var i = 0u; i < METER_BINS; i++) { all += f32(bins[i]); }
-    let brightest = bin_below(GLINTS * all, 0u);
+    let brightest = bin_below(GLINTS * all, 0u, 0u);
     let range_top = min(f32(brightest), -DARKEST_EV * BINS_PER_EV);
     let first = u32(max(range_top - SHADOW_EV * BINS_PER_EV, 0.0));
     var counted = 0.0;
@@ -95,8 +101,8 @@ fn compute() {
         weight += share;
         passed += here;
     }
-    let highlight = stops(bin_below(HIGHLIGHTS * counted, first));
-    let broad = stops(bin_below(BROAD_HIGHLIGHTS * counted, first));
+    let highlight = stops(bin_below(HIGHLIGHTS * counted, first, 0u));
+    let broad = stops(bin_below(BROAD_HIGHLIGHTS * counted, first, 0u));
     var ev = 0.0;
     if weight > 0.0 {
         let mean = sum / weight;
@@ -110,10 +116,13 @@ fn compute() {
             ev += share * min(-above, WIDEST_LIFT_EV);
         }
         ev = min(ev, BROAD_HIGHLIGHT_EV - broad);
+        let pixels = f32(step.size_px.x * step.size_px.y) / f32(METER_STRIDE * METER_STRIDE);
+        let warm = stops(bin_below(WARM_SHARE * WHOLE * pixels, 0u, WARM));
+        ev -= FOLLOWED_WARM * max(warm + ev - WARM_EV, 0.0);
         let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
         ev = clamp(ev, LEAST_EV, most);
     }
     exposure.ev += clamp((ev - exposure.ev) * step.share, -step.most_ev, step.most_ev);
     exposure.factor = exp2(exposure.ev);
-    for (var i = 0u; i <= METER_BINS; i++) { bins[i] = 0u; }
+    for (var i = 0u; i < COUNTERS; i++) { bins[i] = 0u; }
 }

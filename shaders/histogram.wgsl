@@ -2,18 +2,20 @@
 #include "meter.wgsl"
 
 @group(0) @binding(0) var scene: texture_2d<f32>;
-@group(0) @binding(1) var<storage, read_write> bins: array<atomic<u32>, METER_BINS + 1u>;
+@group(0) @binding(1) var<storage, read_write> bins: array<atomic<u32>, COUNTERS>;
 @group(0) @binding(2) var<uniform> step: MeterStep;
 
 // White pixels (sunlit snow and clouds): least luminance, and least ratio of the weakest to the strongest channel.
 const WHITE_LUMINANCE: f32 = 0.28;
 const WHITE_SHARE: f32 = 0.65;
+// Ratio of blue to red from which sky counts as warm, and below which it does in full: cloud at noon is white.
+const WARM_BELOW: vec2f = vec2f(0.8, 0.6);
 
-var<workgroup> here: array<atomic<u32>, METER_BINS + 1u>;
+var<workgroup> here: array<atomic<u32>, COUNTERS>;
 
 @compute @workgroup_size(METER_GROUP, METER_GROUP)
 fn compute(@builtin(global_invocation_id) at: vec3u, @builtin(local_invocation_index) index: u32) {
-    if index <= METER_BINS { atomicStore(&here[index], 0u); }
+    for (var i = index; i < COUNTERS; i += METER_GROUP * METER_GROUP) { atomicStore(&here[i], 0u); }
     workgroupBarrier();
     // A sparse grid of pixels, METER_STRIDE apart, is enough.
     let pixel = at.xy * METER_STRIDE + METER_STRIDE / 2u;
@@ -23,13 +25,19 @@ fn compute(@builtin(global_invocation_id) at: vec3u, @builtin(local_invocation_i
         let strongest = max(light.r, max(light.g, light.b));
         let bright = mix(luminance(light.rgb), strongest, 0.6);
         let bin = (log2(max(bright, 1e-12)) - DARKEST_EV) * BINS_PER_EV;
-        let counts = u32(light.a * 16.0);
-        if bin >= 0.0 { atomicAdd(&here[min(u32(bin), METER_BINS - 1u)], counts); }
+        let counts = u32(light.a * WHOLE);
+        if bin >= 0.0 {
+            let number = min(u32(bin), METER_BINS - 1u);
+            atomicAdd(&here[number], counts);
+            // Only sky has less than the whole weight.
+            let warm = 1.0 - smoothstep(WARM_BELOW.y, WARM_BELOW.x, light.b / max(light.r, 1e-12));
+            if light.a < 1.0 && warm > 0.0 { atomicAdd(&here[WARM + number], u32(warm * WHOLE)); }
+        }
         let weakest = min(light.r, min(light.g, light.b));
         if luminance(light.rgb) > WHITE_LUMINANCE && weakest > WHITE_SHARE * strongest {
             atomicAdd(&here[WHITE], counts);
         }
     }
     workgroupBarrier();
-    if index <= METER_BINS { atomicAdd(&bins[index], atomicLoad(&here[index])); }
+    for (var i = index; i < COUNTERS; i += METER_GROUP * METER_GROUP) { atomicAdd(&bins[i], atomicLoad(&here[i])); }
 }

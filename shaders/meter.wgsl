@@ -4,6 +4,11 @@
 
 // Index of the counter of white pixels, after the bins.
 const WHITE: u32 = METER_BINS;
+// Index of the first bin of a second histogram: the warm light of the sky, whatever the weight of its pixels.
+const WARM: u32 = METER_BINS + 1u;
+const COUNTERS: u32 = 2u * METER_BINS + 1u;
+// Count of a whole pixel.
+const WHOLE: f32 = 16.0;
 const BINS_PER_EV: f32 = 5.0;
 // Luminance at the lower edge of the first bin, in stops relative to sunlit white ground.
 const DARKEST_EV: f32 = -22.0;

@@ -38,8 +38,8 @@ impl Metering {
 const ADAPTATION_SECS: f64 = 0.35;
 /// Greatest rate of adaptation: from a sunlit desert into space, a 60th of a second changes a fifth of a stop.
 const FASTEST_EV_S: f64 = 12.0;
-/// Bytes of the histogram and of its counter of white pixels.
-const HISTOGRAM_BYTES: u64 = (METER_BINS as u64 + 1) * 4;
+/// Bytes of both histograms and of the counter of white pixels (`meter.wgsl`).
+const HISTOGRAM_BYTES: u64 = (2 * METER_BINS as u64 + 1) * 4;
 /// Side in pixels of the square that one workgroup counts.
 const GROUP_PX: u32 = METER_GROUP * METER_STRIDE;
 

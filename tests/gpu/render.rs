@@ -2,7 +2,7 @@
 
 use crate::support::edits::{every_edit, full_planet};
 use crate::support::{
-    Gpu, SIZE_PX, camera, debug, earth, frame, frame_of, gpu, inside_disc, lights, surface, surface_of, view_of,
+    Gpu, SIZE_PX, camera, debug, earth, frame, frame_of, gpu, inside_disc, lights, preset, surface, surface_of, view_of,
 };
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
@@ -191,6 +191,26 @@ fn exposure_lights_dusk_and_lets_night_be_read() {
     mean(0.0, Metering::Instant);
     let steps = [0.4; 15].map(|secs| mean(91.0, Metering::Adapting { secs }));
     assert!(steps[0] < steps[2] && (steps[14] - sunset).abs() < 1.0, "{steps:?} {sunset}");
+}
+
+/// Looking at a low star through dust, the sky is bright but not burnt out, and the ground before it is not black.
+#[test]
+fn a_dusty_sky_around_a_low_star_keeps_its_colour() {
+    let planet = Arc::new(preset("cinnabar.ron"));
+    let mut gpu = gpu();
+    gpu.post.metering = Metering::Instant;
+    let camera = camera(&planet, 13.0, 114.0, 2.0, 270.0, 3.0);
+    for (quality, sun_lon) in [(Quality::Low, 28.0), (Quality::High, 28.0), (Quality::Low, 50.0)] {
+        let view = View { camera, size_px: [160, 90], quality };
+        let surface = surface_of(&planet, &view);
+        let sun_dir_planet = LatLon::from_degrees(0.0, sun_lon).direction();
+        let light = lights(&gpu.draw(&frame_of(&surface, &planet, view, sun_dir_planet)));
+        let share = |counts: &dyn Fn(u32) -> bool| {
+            light.iter().filter(|light| counts(**light)).count() as f64 / light.len() as f64
+        };
+        let (burnt, bright, black) = (share(&|l| l > 3 * 237), share(&|l| l > 3 * 120), share(&|l| l < 3 * 3));
+        assert!(burnt < 0.15 && bright > 0.15 && black < 0.1, "{quality:?}, {sun_lon}: {burnt} {bright} {black}");
+    }
 }
 
 /// However great the difference, a frame of a 60th of a second changes the exposure by a fifth of a stop at most.
