@@ -15,6 +15,9 @@ const GLARE_SHARE: f32 = 0.01;
 // Its radiance as a display shows it: photographs of many exposures press four decades of it into two. By eye.
 const CORONA_GAIN: f32 = 2.6;
 const CORONA_GAMMA: f32 = 0.45;
+// How much the air before it dims the corona, for air of radiance 1: the corona has a twentieth at the star's limb, and
+// a thousandth of that at three radii.
+const CORONA_DIMMED: f32 = 1000.0;
 
 // Radiance of the corona over that at the star's limb, a millionth of the disc's, at a distance from the disc's centre
 // in radii (Baumbach, Strahlung, Ergiebigkeit und Elektronendichte der Sonnenkorona, 1937).
@@ -261,12 +264,12 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     var scene = textureLoad(scene_color, pixel, 0).rgb;
     let starry = !ground && body.is_backmost != 0u;
     var coronas = vec3f(0.0);
-    if starry {
-        scene = NIGHT_BACKGROUND * NIGHT_SKY;
+    if starry { scene = NIGHT_BACKGROUND * NIGHT_SKY; }
+    if starry || (!ALONE && !ground) {
         for (var i = 0u; i < body.sun_count; i++) {
             use_sun(i);
             let sun = seen_sun(dir, i);
-            scene += sun.disc;
+            if starry { scene += sun.disc; }
             coronas += sun.corona;
         }
     }
@@ -305,7 +308,10 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         // the render scale.
         let star_width_rad = frame.pixel_rad * max(frame.render_scale, 1.0);
         let spread = select(1.0, 0.5, frame.render_scale < 1.0);
-        star_light = star_visibility * seen.transmittance;
+        // The corona is brighter than the sky of totality.
+        let corona_visibility = 1.0 / (1.0 + CORONA_DIMMED * seen.air_only);
+        let share = luminance(coronas) / (luminance(coronas) + 0.05);
+        star_light = mix(star_visibility, corona_visibility, share) * seen.transmittance;
         if starry {
             star_light *= coronas + (stars(dir, star_width_rad) + points(dir, star_width_rad)) * spread;
         }

@@ -26,11 +26,10 @@ fn visible_share(sun_radius: f32, body_radius: f32, apart: f32) -> f32 {
     return saturate1(1.0 - covered / (PI * sun_radius * sun_radius));
 }
 
-// Share of the active sun's light that reaches the point `at_km` from the centre of the body.
-fn sun_share(at_km: vec3f) -> vec3f {
-    if ALONE { return vec3f(1.0); }
+// Share of the active sun's light that other bodies let through to the points around one, `aside_km` from it across
+// the light: the mean over all sides, nearly.
+fn share_beside(at_km: vec3f, towards: vec3f, aside_km: f32) -> vec3f {
     var share = vec3f(1.0);
-    let towards = normalize(active_sun.dir - at_km * active_sun.per_km);
     for (var i = 0u; i < body.occluder_count; i++) {
         let occluder = body.occluders[i];
         let away = occluder.center_km - at_km;
@@ -38,14 +37,56 @@ fn sun_share(at_km: vec3f) -> vec3f {
         if dot(away, towards) <= 0.0 { continue; }
         let apart = angle_of_sine(length(cross(away, towards)) / distance);
         let radius = angle_of_sine(occluder.radius_km / distance);
-        share *= mix(occluder.glow, vec3f(1.0), visible_share(active_sun.radius_rad, radius, apart));
+        let aside = length(vec2f(apart, aside_km / distance));
+        share *= mix(occluder.glow, vec3f(1.0), visible_share(active_sun.radius_rad, radius, aside));
     }
+    return share;
+}
+
+// Share of the active sun's light that reaches the point `at_km` from the centre of the body.
+fn sun_share(at_km: vec3f) -> vec3f {
+    if ALONE { return vec3f(1.0); }
+    let towards = normalize(active_sun.dir - at_km * active_sun.per_km);
+    var share = share_beside(at_km, towards, 0.0);
     if body.ring_count > 0u { share *= through_rings(at_km, towards); }
     return share;
 }
 
+// Distances of the air that lights the air in a shadow, km.
+const LIT_FROM_KM: array<f32, 4> = array<f32, 4>(30.0, 80.0, 160.0, 320.0);
+// Radiance of a clear sky near the horizon over its mean over all directions.
+const HORIZON_BRIGHTER: f32 = 3.0;
+
+// Share of the light of the sky around the point `at_km` that is left. The air beyond a shadow scatters light into it,
+// so that totality is a twilight (Shaw, Sky brightness and polarization during the 1973 African eclipse, 1975). Air at
+// a distance stands as high over the horizon as its scale height is seen from there, and its light is dimmed on its
+// way. `share`: of the sun's light at the point. `extinction`: there, per km; rays climb out of it. `dimness`: what
+// else dims the light of air at a distance, as a factor and as one on the height of that air.
+fn share_of_sky(at_km: vec3f, share: vec3f, extinction: vec3f, dimness: vec2f) -> vec3f {
+    if ALONE || body.occluder_count == 0u || body.air_height_km <= 0.0 { return share; }
+    if min(share.r, min(share.g, share.b)) >= 0.999 { return share; }
+    let towards = normalize(active_sun.dir - at_km * active_sun.per_km);
+    var last = share_beside(at_km, towards, 0.0);
+    var sum = share;
+    for (var i = 0u; i < 4u; i++) {
+        let from_km = LIT_FROM_KM[i];
+        let beside = share_beside(at_km, towards, from_km);
+        let height = body.rayleigh_scale_km / from_km;
+        let seen = min(0.5 * HORIZON_BRIGHTER * height, 1.0) * exp(-0.5 * extinction * from_km);
+        sum += max(beside - last, vec3f(0.0)) * seen * (dimness.x + dimness.y * height);
+        last = beside;
+    }
+    return sum;
+}
+
+// Share of the light of the sky on the ground that has been scattered more than once, and thus comes from farther air.
+const SCATTERED_AGAIN: f32 = 0.15;
+
 // As `use_sun`, with the light that reaches the point `at_km` from the centre of the body.
 fn use_sun_at(index: u32, at_km: vec3f) {
     use_sun(index);
-    active_sun.irradiance *= sun_share(at_km);
+    let share = sun_share(at_km);
+    let low = body.rayleigh_per_km + body.mie_extinction_per_km;
+    irradiance_of_sky *= share_of_sky(at_km, share, low, vec2f(SCATTERED_AGAIN, 1.0));
+    active_sun.irradiance *= share;
 }

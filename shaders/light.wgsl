@@ -181,7 +181,7 @@ fn sky_irradiance(h: f32, mu: f32) -> vec3f {
     if body.air_height_km <= 0.0 { return night; }
     let x = vec2f(unit_of_sun(mu), sqrt(saturate1(h / body.air_height_km)));
     let table = textureSampleLevel(sky_lut, clamped, sky_uv(x, IRRADIANCE_SIZE, IRRADIANCE_AT), 0, 0.0).rgb;
-    return table * active_sun.irradiance + night;
+    return table * irradiance_of_sky + night;
 }
 
 // Radiance of the sky seen from the reference sphere, the mean over all azimuths.
@@ -190,5 +190,5 @@ fn sky_radiance(view_mu: f32, sun_mu: f32) -> vec3f {
     if body.air_height_km <= 0.0 { return night; }
     let x = vec2f(unit_of_sun(sun_mu), sqrt(saturate1(view_mu)));
     let table = textureSampleLevel(sky_lut, clamped, sky_uv(x, SKY_SIZE, SKY_AT), 0, 0.0).rgb;
-    return table * active_sun.irradiance + night;
+    return table * irradiance_of_sky + night;
 }

@@ -12,9 +12,12 @@
 // The sun whose light is being computed. Passes loop over the suns of the scene and call `use_sun` for each.
 var<private> active_sun: Sun;
 var<private> is_first_sun: bool = true;
+// Irradiance of that sun on the air of the sky around a point.
+var<private> irradiance_of_sky: vec3f;
 
 fn use_sun(index: u32) {
     active_sun = body.suns[index];
+    irradiance_of_sky = active_sun.irradiance;
     is_first_sun = index == 0u;
 }
 

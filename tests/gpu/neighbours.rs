@@ -1,6 +1,6 @@
 //! Light between bodies, against geometry: shadows of rings and of moons, rings themselves, reflected light.
 
-use crate::support::{frame_of, gpu, rays, surface_of};
+use crate::support::{earth, frame_of, gpu, rays, surface_of};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -199,6 +199,29 @@ fn totality_is_a_dark_disc_in_a_corona() {
     println!("{shown:?}");
     assert!(shown[0].max(shown[1]) < 50 && shown[2] > 150, "{shown:?}");
     assert!(shown[2..].windows(2).all(|pair| pair[0] > pair[1]), "{shown:?}");
+}
+
+/// The sky of totality is a twilight, lit by the air beyond the shadow: a ten-thousandth to a thousandth of the sky by
+/// day, and blue.
+#[test]
+fn the_sky_of_totality_is_a_twilight() {
+    let mut gpu = gpu();
+    let (planet, moon) = (Arc::new(Planet { clouds: None, ..earth() }), Arc::new(ball(1737.0)));
+    // Beside the star, so that the moon is not in the picture.
+    let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), planet.radius_m() + 5000.0, 0.0, 0.9, 0.3);
+    let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
+    let plain = scene(&surface, &planet, camera, DVec3::X);
+    let mut eclipsed = plain.clone();
+    let moon_m = DVec3::X * 3.4e8;
+    let moon_surface = build_now(&moon, &eclipsed.view_of(moon_m - camera.position_planet_m, DQuat::IDENTITY)).unwrap();
+    eclipsed.bodies.push(Body::new(BodyId(7), &moon_surface, moon_m - camera.position_planet_m));
+    let [day, totality] = [&plain, &eclipsed].map(|scene| {
+        let radiance = gpu.radiance(scene);
+        let mean = |k: usize| radiance.iter().map(|light| f64::from(light[k])).sum::<f64>() / radiance.len() as f64;
+        [mean(0), mean(1), mean(2)]
+    });
+    let share = totality[1] / day[1];
+    assert!((1.5e-4..1e-3).contains(&share) && totality[2] > 1.3 * totality[0], "{share}: {day:?}, {totality:?}");
 }
 
 /// The horizon of low ground lies below that of the sphere: a star between the two is seen.
