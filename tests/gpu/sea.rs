@@ -1,7 +1,7 @@
 //! The sea: waves where queries say they are, the view from under it, floes, glow.
 
 use crate::scene::Stages;
-use crate::support::{camera, earth, frame, frame_of, gpu, lights, preset, surface, surface_of};
+use crate::support::{camera, earth, frame, frame_of, gpu, lights, surface, surface_of};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::{Planet, Water};
@@ -65,32 +65,6 @@ fn the_surface_is_drawn_where_queries_find_it() {
     // Ice leaves the longest waves alone.
     let icy_m = range_of(Water { freezing_c: 100.0, ..rough }, 0.12);
     assert!(icy_m < 0.35 * open_m, "{icy_m} m of {open_m} m");
-}
-
-/// The open sea around an eye 2 m over it has waves as far as the foot of the picture: bed that is not in the picture
-/// is no shore.
-#[test]
-fn open_water_has_waves_up_to_the_eye() {
-    let planet = Arc::new(preset("maren.ron"));
-    let mut gpu = gpu();
-    let [width, height] = [192, 108];
-    for pitch in [-3.0, 5.0] {
-        let camera = camera(&planet, 0.0, -120.0, 2.0, 270.0, pitch);
-        let view = View { camera, size_px: [width as u32, height as u32], quality: Quality::High };
-        let surface = surface_of(&planet, &view);
-        let radiance = gpu.radiance(&frame_of(&surface, &planet, view, LatLon::from_degrees(10.0, -130.0).direction()));
-        // How much the light changes from pixel to pixel, by the light, in bands of rows.
-        let roughness = |rows: std::ops::Range<usize>| {
-            let (mut change, mut light) = (0.0, 0.0);
-            for i in rows.flat_map(|y| (1..width).map(move |x| y * width + x)) {
-                change += f64::from(radiance[i][1] - radiance[i - 1][1]).abs();
-                light += f64::from(radiance[i][1]);
-            }
-            change / light
-        };
-        let bands = [height - 36, height - 24, height - 12].map(|first| roughness(first..first + 12));
-        assert!(bands.iter().all(|band| *band > 0.02), "pitch {pitch}: {bands:?}");
-    }
 }
 
 /// From below, the sky is a bright window overhead; beyond it the surface mirrors dark water.
