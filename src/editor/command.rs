@@ -197,6 +197,13 @@ pub enum PanelAction {
 pub enum SculptAction {
     /// Take the tool of this index.
     Take(usize),
+    /// Take the mask tool, for a painted mask of a layer, both by index.
+    PaintMask {
+        /// The layer.
+        layer: usize,
+        /// Its mask.
+        mask: usize,
+    },
     /// Put the tool down, or take it again.
     PutDown,
     /// Measure with drags and clicks, or stop.

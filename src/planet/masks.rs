@@ -6,6 +6,9 @@
 use super::kinds::kinds;
 use super::param::{Domain, Stage, Unit, linear, log, params};
 
+/// Name of the first mask that is painted.
+pub(crate) const FIRST_PAINTED: &str = "Mask";
+
 kinds! {
     /// The quantity that decides where the layer acts.
     pub enum Mask: "mask", "Kind", Stage::Field | Stage::Height;
@@ -17,6 +20,8 @@ kinds! {
     Slope(SlopeMask) = "Slope",
     /// The distance from the equator.
     Latitude(LatitudeMask) = "Latitude",
+    /// Strokes of the mask tool.
+    Painted(PaintedMask) = "Painted by hand",
 }
 
 params! {
@@ -74,6 +79,20 @@ params! {
     }
 }
 
+params! {
+    /// Limits a layer to where strokes of the mask tool painted a mask of this name.
+    pub struct PaintedMask {
+        /// Name of the mask. Layers that name the same mask share it.
+        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::Text { max_chars: 48 }, Stage::Field | Stage::Height;
+        /// Paint, from 0 to 1, at which the layer is fully off.
+        from: f64 = 0.0, "Off at", Unit::None, linear(0.0, 1.0), Stage::Height;
+        /// Paint at which the layer is fully on.
+        to: f64 = 1.0, "On at", Unit::None, linear(0.0, 1.0), Stage::Height;
+        /// Swaps on and off.
+        invert: bool = false, "Invert", Unit::None, Domain::Flag, Stage::Height;
+    }
+}
+
 impl Mask {
     /// Name and value of the two ends of the range.
     pub fn ends(&self) -> [(&'static str, f64); 2] {
@@ -82,6 +101,7 @@ impl Mask {
             Mask::Height(mask) => [("from_m", mask.from_m), ("to_m", mask.to_m)],
             Mask::Slope(mask) => [("from_deg", mask.from_deg), ("to_deg", mask.to_deg)],
             Mask::Latitude(mask) => [("from_deg", mask.from_deg), ("to_deg", mask.to_deg)],
+            Mask::Painted(mask) => [("from", mask.from), ("to", mask.to)],
         }
     }
 

@@ -69,7 +69,7 @@ pub use file::{LoadError, SaveError};
 pub use giant::{Giant, STARTING_GIANTS};
 pub use key::Key;
 pub use layers::{Blend, Layer};
-pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
+pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, PaintedMask, SlopeMask};
 pub use notes::{Bookmark, EditorNotes};
 pub use parts::{Atmosphere, Biomes, CLIMATE_BELTS, Climate, Clouds, Star, TableBlend, TableRows, Water};
 pub use picture::PictureLayout;

@@ -265,7 +265,9 @@ impl Terrain {
                 before_m = heights_m[0];
             });
         });
-        layers_m.split_off(self.stack.layers_before())
+        let mut of_preset = layers_m.split_off(self.stack.layers_before());
+        of_preset.truncate(self.planet.layers.len());
+        of_preset
     }
 
     /// The ground at unit directions, with the slopes that points at each spacing (angles) can show. The points

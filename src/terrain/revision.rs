@@ -148,7 +148,7 @@ impl TileContent {
 }
 
 impl TileContent {
-    /// The keys of tiles with edits of the ground and paint of these keys.
+    /// The keys of tiles with edits of the ground or of masks, and paint of the climate, of these keys.
     pub(super) fn with_edits(&self, keys: TileKeys, (ground, paint): (Option<Key>, Option<Key>)) -> TileKeys {
         // Biome relief follows the climate.
         let shaping = (ground, paint.filter(|_| self.relief.is_some()));
@@ -177,17 +177,20 @@ pub(super) struct Compiled {
 impl Compiled {
     /// Compiles a valid planet.
     pub(super) fn new(planet: &Planet) -> Self {
-        let (stack, under) = (LayerStack::new(planet), LayerStack::under(planet));
+        let edits = Edits::new(planet);
+        let painted = edits.as_ref();
+        let (stack, under) = (LayerStack::new(planet, painted), LayerStack::under(planet, painted));
         let climate = CompiledClimate::new(planet);
         let relief = Relief::new(planet, &climate, stack.limits_m());
         let relief_noises = relief.iter().flat_map(Relief::noises).map(|noise| Key::of(&**noise));
         let mut fields: Vec<Key> = stack.field_keys().chain(relief_noises).collect();
 
         let heights = Key::of(&stack.joined());
-        let edits = Edits::new(planet);
+        let masks = painted.and_then(|edits| edits.mask_key());
+        let with_masks = |key: Key| masks.map_or(key, |masks| Key::of(&(key, masks)));
         let map_inputs = Inputs {
-            heights,
-            under: under.as_ref().map(|under| Key::of(&under.joined())),
+            heights: with_masks(heights),
+            under: under.as_ref().map(|under| with_masks(Key::of(&under.joined()))),
             sea_level_m: planet.sea_level_m(),
             reads_coast: CompiledClimate::reads_coast(planet),
             structure: structure_inputs(planet),
@@ -208,7 +211,7 @@ impl Compiled {
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
         let tiles = content.keys(final_map_keys(&map_inputs), plates);
-        let all = edits.as_ref().map(|edits| (edits.key(), edits.paint_key()));
+        let all = edits.as_ref().map(|edits| (edits.shape_key(), edits.paint_key()));
         let tiles = content.with_edits(tiles, all.unwrap_or_default());
         let [materials, cloud_map, optical_depth, air_tables] = texture_keys(planet);
         let keys = Keys {

@@ -132,7 +132,7 @@ fn masked(planet: &Planet, mask: &Mask, noises: &[Vec<f64>], i: usize, h: f64, d
             let sine = if *both { dir.z.abs() } else { dir.z };
             step(sine, from_deg.to_radians().sin(), to_deg.to_radians().sin(), *invert)
         }
-        Mask::Slope(_) => unreachable!("left out"),
+        Mask::Slope(_) | Mask::Painted(_) => unreachable!("left out"),
     }
 }
 

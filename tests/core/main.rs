@@ -8,7 +8,7 @@
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
-//! - `sculpt`, `stamp`, `erosion`, `paint`, `structural`: ground edits
+//! - `sculpt`, `stamp`, `erosion`, `paint`, `masks`, `structural`: ground edits
 //! - `system`: orbits and resonances
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
@@ -24,6 +24,7 @@ mod idle;
 mod joining;
 mod landforms;
 mod lod;
+mod masks;
 mod nonsense;
 mod paint;
 mod physics;

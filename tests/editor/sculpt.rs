@@ -8,7 +8,7 @@ use tellus::editor::command::Command;
 use tellus::planet::edits::{PictureStamp, Raise, Tool};
 use tellus::planet::param::Choice;
 use tellus::planet::picture::PictureExtent;
-use tellus::planet::{GroundEdits, Planet, Water};
+use tellus::planet::{GroundEdits, Layer, Mask, PaintedMask, Planet, Water};
 
 fn small() -> Planet {
     Planet { radius_km: 1000.0, water: Some(Water { level_m: -100.0, ..Water::default() }), ..Planet::default() }
@@ -322,6 +322,39 @@ fn a_picture_is_chosen_for_the_brush_placed_turned_by_its_handle_and_saved_besid
     let text = std::fs::read_to_string(path("mine.ron")).unwrap();
     assert_eq!(text.matches("file: \"hill.png\"").count(), 2, "{text}");
     assert_eq!(Planet::load(path("mine.ron")).unwrap().edits.len(), 2);
+}
+
+#[test]
+fn a_painted_mask_of_a_layer_takes_the_mask_tool_and_strokes_let_the_layer_act() {
+    let layer = |masks: Vec<Mask>| Layer { name: "Bumps".to_owned(), bias: 2.0, masks, ..Layer::default() };
+    let mask = Mask::Painted(PaintedMask { mask: "Dry".to_owned(), ..PaintedMask::default() });
+    let mut harness =
+        app::open_planet_with_picture([1024.0, 640.0], Planet { layers: vec![layer(vec![mask])], ..small() });
+    app::wait_for_picture(&mut harness);
+    click(&mut harness, "Terrain");
+    app::scroll_to(&mut harness, "Paint mask 1 of Bumps");
+    click(&mut harness, "Paint mask 1 of Bumps");
+    let middle = canvas(&harness).center();
+    let highest_m = |harness: &app::Editor| {
+        let planet = planet(harness);
+        let at = planet.edits.get(0).map(|edit| edit.points.0[0].direction());
+        at.map(|dir| tellus::terrain::Terrain::try_new(planet.into()).unwrap().height_m(dir))
+    };
+    stroke(&mut harness, middle, middle + egui::vec2(60.0, 0.0), egui::Modifiers::NONE);
+    assert!(highest_m(&harness).unwrap() > 500.0, "{:?}", highest_m(&harness));
+    assert_eq!(undo_label(&harness), "Mask of layers");
+    let names = |harness: &app::Editor| -> Vec<String> {
+        let planet = planet(harness);
+        let names = planet.edits.iter().filter_map(|edit| match &edit.tool {
+            Tool::Mask(paint) => Some(format!("{} {}", paint.mask, paint.amount)),
+            _ => None,
+        });
+        names.collect()
+    };
+    // Shift erases.
+    stroke(&mut harness, middle, middle + egui::vec2(60.0, 0.0), egui::Modifiers::SHIFT);
+    assert_eq!(names(&harness), ["Dry 1", "Dry -1"]);
+    assert!(highest_m(&harness).unwrap().abs() < 1e-6, "{:?}", highest_m(&harness));
 }
 
 #[test]

@@ -29,6 +29,7 @@ const TOOLS: [(&str, &str); Tool::NAMES.len()] = [
     ("Sculpt: temperature", "Paint the climate warmer with drags; with Shift colder."),
     ("Sculpt: biome", "Paint a biome with drags."),
     ("Sculpt: clouds", "Paint clouds with drags; with Shift clear the sky."),
+    ("Sculpt: mask of layers", "Paint where layers act with drags; with Shift erase."),
     ("Sculpt: uplift", "Paint how far rock rises while the structure's rivers carve it."),
     ("Sculpt: rock hardness", "Paint how hard the rock is that the structure's rivers carve."),
     ("Sculpt: rain", "Paint rain of the structure's weather: rivers and biomes answer."),

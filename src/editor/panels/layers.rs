@@ -1,7 +1,7 @@
 //! The terrain tab: the list of layers, and the parameters of the selected one.
 
 use super::{Draft, layer_edit, masks, owner_box, rest};
-use crate::editor::command::{Action, ClipAction, Wanted};
+use crate::editor::command::{Action, ClipAction, PanelAction, SculptAction, Wanted};
 use crate::editor::viewport::layer_view::{LayerOverlay, LayerQuantity};
 use crate::editor::widgets::drag_row::dragged_row;
 use crate::editor::widgets::icon::{Icon, icon_button, mark};
@@ -310,8 +310,14 @@ fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let browse = params_grid(ui, &grid, layer, &mut default);
     draft.commands.extend(browse.map(Action::Browse));
     ui.add_space(6.0);
-    if let Some(label) = masks::show(ui, index, layer, &names, shown) {
+    let masks::Asked { label, paint } = masks::show(ui, index, layer, &names, shown);
+    if let Some(label) = label {
         draft.name_edit(label);
+    }
+    if let Some(mask) = paint {
+        state.quantity = Some(LayerQuantity::Mask);
+        let action = SculptAction::PaintMask { layer: index, mask };
+        draft.commands.push(Action::Panel(PanelAction::Sculpt(action)));
     }
 }
 

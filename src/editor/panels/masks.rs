@@ -8,18 +8,21 @@ use crate::planet::param::{Choice, ParamPath, Segment};
 use crate::planet::{HeightMask, Layer, LayerMask, MAX_MASKS, Mask};
 use eframe::egui;
 
-/// Shows the masks of the layer at `index`. Gives the name of an edit that adds or removes a mask.
-pub fn show(
-    ui: &mut egui::Ui,
-    index: usize,
-    layer: &mut Layer,
-    names: &[String],
-    shown: RowView<'_>,
-) -> Option<String> {
-    let mut label = None;
+/// What the masks ask for.
+#[derive(Default)]
+pub struct Asked {
+    /// The name of an edit that adds or removes a mask.
+    pub label: Option<String>,
+    /// Take the mask tool, to paint the mask of this number.
+    pub paint: Option<usize>,
+}
+
+/// Shows the masks of the layer at `index`.
+pub fn show(ui: &mut egui::Ui, index: usize, layer: &mut Layer, names: &[String], shown: RowView<'_>) -> Asked {
+    let mut asked = Asked::default();
     let others: Vec<&String> = names.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, name)| name).collect();
     if !shown.filter.is_active() {
-        label = head(ui, layer, &others);
+        asked.label = head(ui, layer, &others);
     }
     let mut removed = None;
     for (number, mask) in layer.masks.iter_mut().enumerate() {
@@ -48,6 +51,12 @@ pub fn show(
                             .accessible_name(format!("Layer of {owner}"));
                     });
                 }
+                if matches!(mask, Mask::Painted(_)) {
+                    let button = ui.button("Paint").on_hover_text("Paint where the layer acts; with Shift erase");
+                    if button.accessible_name(format!("Paint {owner}")).clicked() {
+                        asked.paint = Some(number);
+                    }
+                }
                 if icon_button(ui, Icon::Remove, &format!("Remove {owner}"), "Remove this mask").clicked() {
                     removed = Some(number);
                 }
@@ -60,9 +69,9 @@ pub fn show(
     }
     if let Some(number) = removed {
         layer.masks.remove(number);
-        label = Some("Remove mask".to_owned());
+        asked.label = Some("Remove mask".to_owned());
     }
-    label
+    asked
 }
 
 /// The heading, with the button that adds a mask. Gives the name of the edit.

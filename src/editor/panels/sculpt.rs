@@ -10,9 +10,9 @@ use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::row_view::{LockView, RowView};
-use crate::planet::edits::{EditPoint, Flatten, GroundEdit, MAX_EDITS, edit_path};
+use crate::planet::edits::{EditPoint, Flatten, GroundEdit, MAX_EDITS, MaskPaint, edit_path};
 use crate::planet::param::{Choice, ParamPath};
-use crate::planet::{Planet, TableRows, Tool};
+use crate::planet::{Mask, PaintedMask, Planet, TableRows, Tool};
 use crate::sphere::LatLon;
 use eframe::egui::{self, AtomExt};
 use std::path::Path;
@@ -86,12 +86,22 @@ impl SculptState {
     pub fn act(&mut self, planet: &Planet, action: SculptAction) {
         match action {
             SculptAction::Take(tool) => (self.tool, self.in_hand, self.measures) = (tool, true, false),
+            SculptAction::PaintMask { layer, mask } => self.take_mask(planet, layer, mask),
             SculptAction::PutDown => (self.in_hand, self.measures) = (!self.in_hand, false),
             SculptAction::Measure => (self.in_hand, self.measures) = (false, !self.measures),
             SculptAction::Larger => self.brush(planet).radius_km = tidy_km(self.brush(planet).radius_km * STEP),
             SculptAction::Smaller => self.brush(planet).radius_km = tidy_km(self.brush(planet).radius_km / STEP),
         }
         self.brush(planet);
+    }
+
+    /// Takes the mask tool in hand, for a painted mask of a layer.
+    fn take_mask(&mut self, planet: &Planet, layer: usize, mask: usize) {
+        let mask = planet.layers.get(layer).and_then(|layer| layer.masks.get(mask));
+        let Some(Mask::Painted(PaintedMask { mask, .. })) = mask else { return };
+        let tool = Tool::Mask(MaskPaint { mask: mask.clone(), ..MaskPaint::default() });
+        (self.tool, self.in_hand, self.measures) = (tool.index(), true, false);
+        self.brush(planet).tool = tool;
     }
 
     /// Gives the picture tool in hand a picture.
@@ -392,6 +402,12 @@ fn idle_tool(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
     }
     if tool.is_structural() && planet.structure.is_none() {
         ui.weak("The planet has no structure that could answer: give it one in the Structure tab.");
+    }
+    if let Tool::Mask(paint) = tool {
+        let is_it = |mask: &Mask| matches!(mask, Mask::Painted(painted) if painted.mask == paint.mask);
+        if !planet.layers.iter().flat_map(|layer| &layer.masks).any(is_it) {
+            ui.weak("No layer has a painted mask of this name: give one to a layer in the Terrain tab.");
+        }
     }
     let Tool::Biome(paint) = tool else { return };
     let biomes = &planet.biomes;

@@ -352,6 +352,7 @@ fn invert(tool: &mut Tool) {
         Tool::Moisture(paint) if paint.mode == PaintMode::Shift => paint.moisture = -paint.moisture,
         Tool::Temperature(paint) if paint.mode == PaintMode::Shift => paint.temperature_c = -paint.temperature_c,
         Tool::Clouds(paint) => paint.amount = -paint.amount,
+        Tool::Mask(paint) => paint.amount = -paint.amount,
         Tool::Uplift(paint) => paint.uplift_m = -paint.uplift_m,
         Tool::Rock(paint) => paint.hardness = -paint.hardness,
         Tool::Rain(paint) => paint.rain_mm = -paint.rain_mm,

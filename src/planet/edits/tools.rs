@@ -3,6 +3,7 @@
 
 use crate::planet::biome::UNSET_KEY;
 use crate::planet::kinds::kinds;
+use crate::planet::masks::FIRST_PAINTED;
 use crate::planet::param::{Domain, Stage, Unit, choice, count, linear, log, params};
 use crate::planet::picture::PictureFile;
 
@@ -53,6 +54,8 @@ kinds! {
     Biome(BiomePaint) = "Biome",
     /// Paints where clouds gather and where the sky clears. Clouds drift through the painted places.
     Clouds(CloudPaint) = "Clouds",
+    /// Paints a mask: layers that name it act where it is painted.
+    Mask(MaskPaint) = "Mask of layers",
     /// Paints how far rock rises while the rivers of the structure carve it: a range with valleys, or land out of the
     /// sea.
     Uplift(UpliftPaint) = "Uplift",
@@ -89,9 +92,10 @@ impl Tool {
         )
     }
 
-    /// Whether the tool leaves the ground under it as it is: it paints the climate, the clouds or the structure.
+    /// Whether the tool leaves the ground under it as it is: it paints the climate, the
+    /// clouds, a mask of layers or the structure.
     pub fn is_paint(&self) -> bool {
-        matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_))
+        matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_) | Tool::Mask(_))
             || self.is_structural()
     }
 
@@ -352,6 +356,16 @@ params! {
     pub struct CloudPaint {
         /// How much cloudier it becomes: 1 is overcast, -1 is clear sky.
         amount: f64 = 0.25, "Amount", Unit::None, linear(-1.0, 1.0), Stage::CloudMap;
+    }
+}
+
+params! {
+    /// `v + (1 - v) * amount * w`; a negative amount erases: `v + v * amount * w`
+    pub struct MaskPaint {
+        /// Name of the mask. Layers choose it among their masks.
+        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::Text { max_chars: 48 }, Stage::Height;
+        /// Share of the way to full paint; negative erases.
+        amount: f64 = 1.0, "Amount", Unit::None, linear(-1.0, 1.0), Stage::Height;
     }
 }
 

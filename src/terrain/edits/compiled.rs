@@ -312,6 +312,26 @@ impl CompiledEdit {
         falloff(angle_of(place.nearest.chord2) / self.radius_rad * stretch, self.core).0
     }
 
+    /// The weight of paint with its gradient, as the change of an effect. None where it is 0.
+    pub(super) fn weighted(&self, dir: DVec3, arcs: &Arcs<'_>) -> Option<Effect<'_>> {
+        let nearest = self.place(dir, arcs)?.nearest;
+        let plain = angle_of(nearest.chord2) / self.radius_rad;
+        let ragged = self.outline.as_ref().map(|noise| noise.at(dir));
+        let (stretch, by_noise) = ragged.map_or((1.0, 0.0), |noise| self.stretch(noise.value));
+        let (weight, by_t) = falloff(plain * stretch, self.core);
+        let outward = if by_t == 0.0 { DVec3::ZERO } else { away(dir, self.arcs[nearest.arc as usize].foot(dir).dir) };
+        (weight > 0.0).then(|| Effect {
+            change_m: weight,
+            by_ground: 0.0,
+            smooth: outward * (by_t * stretch / self.radius_rad),
+            feature_rad: self.radius_rad * (1.0 - self.core).max(0.1),
+            ground: DVec3::ZERO,
+            outline: ragged.map(|noise| (by_t * plain * by_noise, noise)),
+            rough: None,
+            detail: None,
+        })
+    }
+
     /// Whether a direction is within reach of these of its arcs.
     pub(super) fn reaches(&self, dir: DVec3, arcs: &Arcs<'_>) -> bool {
         self.place(dir, arcs).is_some()

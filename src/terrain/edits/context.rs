@@ -3,14 +3,16 @@
 
 use super::compiled::CompiledEdit;
 use super::index::{Hash, Index, Piece};
+use super::paint::Paint;
 use super::path::angle_of;
 use super::reading::Reader;
 use super::roster::{Changes, Roster, slot_of};
 use std::sync::Arc;
 
 /// Finds anew the content of the edits that read the ground where something changed. Returns these as changes.
-/// `index`: that of the roster after `changes`.
-pub(super) fn refresh(roster: &mut Roster, index: &Index, changes: &Changes) -> Changes {
+/// `ground`, `masks`: the indices of the roster after `changes`. Painted masks change the layers, so that their order
+/// does not count.
+pub(super) fn refresh(roster: &mut Roster, [ground, masks]: [&Index; 2], changes: &Changes) -> Changes {
     let reading: Vec<(u32, Arc<CompiledEdit>)> = roster.reading().map(|(slot, edit)| (slot, edit.clone())).collect();
     let mut refreshed = Changes::default();
     if reading.is_empty() {
@@ -18,7 +20,8 @@ pub(super) fn refresh(roster: &mut Roster, index: &Index, changes: &Changes) -> 
     }
     let new = changes.added.iter().filter_map(|slot| roster.edit(*slot).cloned());
     let old = changes.removed.iter().map(|(_, edit)| edit.clone());
-    let mut changed: Vec<Arc<CompiledEdit>> = new.chain(old).filter(|edit| edit.paint().is_none()).collect();
+    let mut changed: Vec<Arc<CompiledEdit>> =
+        new.chain(old).filter(|edit| edit.paint().is_none_or(Paint::is_mask)).collect();
     for (slot, edit) in reading {
         let Some(reach_rad) = edit.reader.as_ref().map(Reader::reach_rad) else { continue };
         let chord = reach_rad * (1.0 + 1e-9);
@@ -32,12 +35,13 @@ pub(super) fn refresh(roster: &mut Roster, index: &Index, changes: &Changes) -> 
         }
         let mut before: Vec<u32> = Vec::new();
         for piece in &edit.pieces {
-            index.each_leaf(Some((piece.middle, piece.chord + chord)), &mut |numbers| {
-                let is_near =
-                    |number: &u32| roster.piece(*number).is_some_and(|other| overlaps(piece, other, reach_rad));
-                let is_before = |number: &u32| roster.rank_of(slot_of(*number)) < roster.rank_of(slot);
+            let disc = Some((piece.middle, piece.chord + chord));
+            let is_near = |number: &u32| roster.piece(*number).is_some_and(|other| overlaps(piece, other, reach_rad));
+            let is_before = |number: &u32| roster.rank_of(slot_of(*number)) < roster.rank_of(slot);
+            ground.each_leaf(disc, &mut |numbers| {
                 before.extend(numbers.iter().copied().filter(|number| is_before(number) && is_near(number)));
             });
+            masks.each_leaf(disc, &mut |numbers| before.extend(numbers.iter().copied().filter(is_near)));
         }
         before.sort_unstable_by_key(|number| roster.rank(*number));
         before.dedup();

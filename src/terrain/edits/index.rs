@@ -43,7 +43,7 @@ impl Piece {
 }
 
 /// Chord of an angle, a little larger, for rounding. That of half a turn and more reaches everywhere.
-pub(super) fn chord_of(angle_rad: f64) -> f64 {
+pub(crate) fn chord_of(angle_rad: f64) -> f64 {
     if angle_rad >= std::f64::consts::PI {
         return 3.0;
     }

@@ -9,6 +9,7 @@
 //! - `memory`: what those have found out, node by node
 //! - `stamp`: height pictures as stamps
 //! - `paint`: painted climate and clouds
+//! - `mask`: painted masks of layers
 //! - `structural`: paint of a structure, and rivers whose courses are drawn
 //! - `outline`: noise for ragged outlines and rough ground
 //! - `compiled`: one edit: its tool, its line, the pieces of that line
@@ -25,6 +26,7 @@ mod compiled;
 mod context;
 mod gullies;
 mod index;
+mod mask;
 mod memory;
 mod near;
 mod outline;
@@ -46,7 +48,9 @@ use crate::sphere::NodeId;
 use crate::world::DrawnCourse;
 use compiled::CompiledEdit;
 use glam::DVec3;
+pub(crate) use index::chord_of;
 use index::{Index, Piece, Walk};
+pub(crate) use mask::MaskId;
 pub(crate) use memory::Memory;
 use near::Arcs;
 pub(crate) use near::Near;
@@ -62,6 +66,7 @@ use widening::Widening;
 const MOST_READING: usize = 16;
 
 /// The edits of a planet that are on, compiled.
+#[derive(Clone)]
 pub(crate) struct Edits {
     roster: Roster,
     /// Those that change the ground.
@@ -71,6 +76,8 @@ pub(crate) struct Edits {
     places: Places,
     /// Those that paint clouds.
     clouds: Index,
+    /// Those that paint masks of layers.
+    masks: Index,
     /// Those that paint the structure, and rivers whose courses are drawn.
     structural: Index,
     courses: Vec<DrawnCourse>,
@@ -93,6 +100,7 @@ impl fmt::Debug for Edits {
             .field(&self.paint_key())
             .field(&self.cloud_key())
             .field(&self.structure_key())
+            .field(&self.mask_key())
             .finish()
     }
 }
@@ -139,6 +147,7 @@ impl Edits {
             ground,
             climate: Index::default(),
             clouds: Index::default(),
+            masks: Index::default(),
             structural: Index::default(),
             courses: Vec::new(),
             places: Places::default(),
@@ -156,17 +165,18 @@ impl Edits {
         let mut ground = self.ground.next(&roster, &changes, is_ground);
         let climate = self.climate.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_climate));
         let clouds = self.clouds.next(&roster, &changes, |edit| matches!(edit.paint(), Some(Paint::Clouds { .. })));
+        let masks = self.masks.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_mask));
         let structural = self.structural.next(&roster, &changes, |edit| edit.structure_paint().is_some());
         let courses =
             if changes.is_empty() { self.courses.clone() } else { structural::courses_of(&roster, world.radius_m) };
         // What reads the ground depends on the edits before it.
-        let later = context::refresh(&mut roster, &ground, &changes);
+        let later = context::refresh(&mut roster, [&ground, &masks], &changes);
         if !later.is_empty() {
             ground = ground.next(&roster, &later, is_ground);
         }
         let places = self.places.next(planet, painted_biomes(planet, &climate));
         let reads = roster.reading().next().is_some();
-        Self { roster, key: ground.key_of_all(), ground, climate, places, clouds, structural, courses, reads }
+        Self { roster, key: ground.key_of_all(), ground, climate, places, clouds, masks, structural, courses, reads }
     }
 
     /// The same edits on a planet whose biome table may be another.
@@ -175,10 +185,7 @@ impl Edits {
         if places == self.places {
             return self.clone();
         }
-        let Self { roster, ground, climate, clouds, structural, courses, key, reads, .. } = &**self;
-        let [ground, climate, clouds, structural] = [ground, climate, clouds, structural].map(Clone::clone);
-        let (roster, courses) = (roster.clone(), courses.clone());
-        Arc::new(Self { roster, ground, climate, places, clouds, structural, courses, key: *key, reads: *reads })
+        Arc::new(Self { places, ..self.as_ref().clone() })
     }
 
     /// The key of all edits of the ground. None if there is none.
@@ -196,12 +203,7 @@ impl Edits {
         (!self.climate.is_empty()).then(|| Key::of(&(self.climate.key_of_all(), &self.places.places)))
     }
 
-    /// The key of the edits that touch a node and the ground close around it. None if none does.
-    pub(crate) fn key_near(&self, id: NodeId) -> Option<Key> {
-        self.ground.key_near(id, &self.roster)
-    }
-
-    /// The same of paint.
+    /// The key of paint of the climate that touches a node and the ground close around it. None if none does.
     pub(crate) fn paint_key_near(&self, id: NodeId) -> Option<Key> {
         let key = self.climate.key_near(id, &self.roster)?;
         Some(Key::of(&(key, &self.places.places)))

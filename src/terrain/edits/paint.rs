@@ -2,6 +2,7 @@
 //! has in the biome table. Painted clouds: strokes that change the log-odds of their cover. Paint of the structure is
 //! in `structural`.
 
+use super::mask::MaskId;
 use super::structural::StructurePaint;
 use crate::planet::{Biomes, Planet, Table, TableRows};
 
@@ -83,6 +84,11 @@ pub(super) enum Paint {
     Clouds {
         odds: f64,
     },
+    /// A share of the way to full paint of a mask, or if negative to none.
+    Mask {
+        mask: MaskId,
+        amount: f64,
+    },
     Structure(StructurePaint),
     /// The course of a river of the structure.
     Course,
@@ -92,6 +98,11 @@ impl Paint {
     /// Whether it changes the climate of the ground.
     pub(super) fn is_climate(&self) -> bool {
         matches!(self, Self::Moisture { .. } | Self::Temperature { .. } | Self::Biome { .. })
+    }
+
+    /// Whether it changes where layers act.
+    pub(super) fn is_mask(&self) -> bool {
+        matches!(self, Self::Mask { .. })
     }
 
     /// Paints the climate with a weight.
@@ -110,7 +121,7 @@ impl Paint {
                     painted.temperature.set(temperature_c, weight * strength);
                 }
             }
-            Self::Clouds { .. } | Self::Structure(_) | Self::Course => {}
+            Self::Clouds { .. } | Self::Mask { .. } | Self::Structure(_) | Self::Course => {}
         }
     }
 }

@@ -2,14 +2,15 @@
 //! reach of the tool and beyond.
 
 use super::index::Hash;
+use super::mask::MaskId;
 use super::outline;
 use super::paint::Paint;
 use super::structural::StructurePaint;
 use super::widening::Widening;
 use crate::planet::edits::{
-    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, Mesa, MoisturePaint, PaintMode,
-    PictureStamp, RainPaint, Raise, Ridge, Road, RockPaint, Roughen, Smooth, TemperaturePaint, Terrace, Thermal,
-    UpliftPaint, Volcano, Wall,
+    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, MaskPaint, Mesa, MoisturePaint,
+    PaintMode, PictureStamp, RainPaint, Raise, Ridge, Road, RockPaint, Roughen, Smooth, TemperaturePaint, Terrace,
+    Thermal, UpliftPaint, Volcano, Wall,
 };
 use crate::planet::picture::PictureExtent;
 use crate::planet::{GroundEdit, Tool};
@@ -214,6 +215,7 @@ impl CompiledTool {
             Tool::Rock(RockPaint { hardness }) => Self::Paint(Paint::Structure(StructurePaint::Rock { hardness })),
             Tool::Rain(RainPaint { rain_mm }) => Self::Paint(Paint::Structure(StructurePaint::Rain { rain_mm })),
             Tool::River(_) => Self::Paint(Paint::Course),
+            Tool::Mask(MaskPaint { ref mask, amount }) => Self::Paint(Paint::Mask { mask: MaskId::of(mask), amount }),
             Tool::Clouds(CloudPaint { amount }) => Self::Paint(Paint::Clouds { odds: CLOUD_ODDS * amount }),
         }
     }
@@ -252,6 +254,12 @@ impl CompiledTool {
             Self::Paint(Paint::Structure(StructurePaint::Rock { hardness })) => (25, [hardness, 0.0, 0.0, 0.0]),
             Self::Paint(Paint::Structure(StructurePaint::Rain { rain_mm })) => (26, [rain_mm, 0.0, 0.0, 0.0]),
             Self::Paint(Paint::Course) => (27, [0.0; 4]),
+            Self::Paint(Paint::Mask { mask, amount }) => {
+                let [high, low] = mask.words();
+                hash.add(high);
+                hash.add(low);
+                (28, [amount, 0.0, 0.0, 0.0])
+            }
         };
         hash.add(kind);
         numbers.into_iter().for_each(|number| hash.add_f64(number));

@@ -18,17 +18,20 @@ mod steps;
 pub use curve::curve_at;
 pub(crate) use join::{Batch, Heights, LayerFields, Scratch, combine};
 
+use super::edits::{Edits, MaskId};
 use super::field::Spacings;
 use super::landform::{Landform, Maps, Reads};
 use crate::planet::{self, Key, Layer, MAX_MASKS, Mask, Planet, Shape};
 use curve::CompiledCurve;
+use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
 /// The layers of a planet, compiled.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LayerStack {
-    /// With a structure, the first one is its carved ground; the layers of the preset follow.
+    /// With a structure, the first one is its carved ground; the layers of the preset follow, and after these the masks
+    /// that are painted by hand, as layers that are off.
     pub(crate) layers: Vec<CompiledLayer>,
     has_structure: bool,
     /// The spacings over which slope masks measure.
@@ -115,7 +118,7 @@ const LEAST_M: f64 = 1e-3;
 
 impl LayerStack {
     /// Compiles the layers of a valid planet. Masks that name no layer are left out.
-    pub(crate) fn new(planet: &Planet) -> Self {
+    pub(crate) fn new(planet: &Planet, edits: Option<&Arc<Edits>>) -> Self {
         let has_structure = planet.structure.is_some();
         let mut layers: Vec<CompiledLayer> = Vec::new();
         layers.extend(has_structure.then(CompiledLayer::structure));
@@ -123,16 +126,18 @@ impl LayerStack {
             let compiled = CompiledLayer::new(planet, layer);
             CompiledLayer { enabled: layer.enabled && !(has_structure && layer.under), ..compiled }
         }));
+        layers.extend(painted_masks(planet).map(|mask| CompiledLayer::painted(mask, edits)));
         Self::of(planet, layers, has_structure, CompiledCurve::new(&planet.height_curve))
     }
 
     /// Compiles the layers that lie under the structure of a planet. None if there are none.
-    pub(crate) fn under(planet: &Planet) -> Option<Self> {
+    pub(crate) fn under(planet: &Planet, edits: Option<&Arc<Edits>>) -> Option<Self> {
         let is_under = |layer: &Layer| layer.enabled && layer.under;
         planet.structure.as_ref()?;
         planet.layers.iter().find(|layer| is_under(layer))?;
         let compiled = |layer| CompiledLayer { enabled: is_under(layer), ..CompiledLayer::new(planet, layer) };
-        Some(Self::of(planet, planet.layers.iter().map(compiled).collect(), false, None))
+        let masks = painted_masks(planet).map(|mask| CompiledLayer::painted(mask, edits));
+        Some(Self::of(planet, planet.layers.iter().map(compiled).chain(masks).collect(), false, None))
     }
 
     fn of(
@@ -290,6 +295,12 @@ impl CompiledLayer {
         }
     }
 
+    /// A mask that is painted by hand.
+    fn painted(mask: MaskId, edits: Option<&Arc<Edits>>) -> Self {
+        let landform = Arc::new(Landform::painted(mask, edits));
+        Self { landform, enabled: false, ..Self::structure() }
+    }
+
     fn field_key(&self) -> Key {
         Key::of(&(&self.landform, &self.slope_spacings_rad))
     }
@@ -306,6 +317,15 @@ impl CompiledLayer {
     }
 }
 
+/// The masks of a planet that are painted by hand, each once.
+fn painted_masks(planet: &Planet) -> impl Iterator<Item = MaskId> {
+    let masks = planet.layers.iter().flat_map(|layer| &layer.masks).filter_map(|mask| match mask {
+        Mask::Painted(mask) => Some(MaskId::of(&mask.mask)),
+        _ => None,
+    });
+    masks.collect::<BTreeSet<MaskId>>().into_iter()
+}
+
 impl CompiledMask {
     fn new(planet: &Planet, mask: &Mask) -> Option<Self> {
         // The sine rises evenly enough with the angle, and needs no arc function at each point.
@@ -314,6 +334,11 @@ impl CompiledMask {
             Mask::Layer(mask) => {
                 let layer = planet.layers.iter().position(|layer| layer.name == mask.layer)?;
                 (Source::Layer(layer), mask.from, mask.to, mask.invert)
+            }
+            Mask::Painted(mask) => {
+                let id = MaskId::of(&mask.mask);
+                let place = painted_masks(planet).position(|other| other == id)?;
+                (Source::Layer(planet.layers.len() + place), mask.from, mask.to, mask.invert)
             }
             Mask::Height(mask) => (Source::Height, mask.from_m, mask.to_m, mask.invert),
             Mask::Slope(mask) => {

@@ -14,6 +14,7 @@
 //! - `cells`: plates, cracks and domes around scattered centres
 //! - `heightmap`: heights from a picture
 //! - `structure`: the ground that rivers carve, from world maps; it is no kind of layer
+//! - `painted`: a mask that is painted by hand; it is no kind of layer
 //! - `folding`: a landform steered by belts of folded rock
 //! - `chunk`, `scratch`: the points, sums and memory that all kinds share
 //! - `octaves`: series of octaves; `folded`: octaves folded at zero
@@ -42,6 +43,7 @@ mod folding;
 mod gullies;
 mod heightmap;
 mod octaves;
+mod painted;
 mod places;
 #[cfg(test)]
 mod precision;
@@ -58,6 +60,7 @@ mod warp;
 mod warped;
 
 use crate::planet::{Key, Shape};
+use crate::terrain::edits::{Edits, MaskId};
 use crate::world::carved::Carved;
 use crate::world::plates::Plates;
 use crate::world::weather::Weather;
@@ -81,6 +84,7 @@ macro_rules! landforms {
         pub(crate) enum Landform {
             $($kind($file::$kind),)+
             Structure(structure::Structure),
+            Painted(painted::Painted),
             Folding(Box<folding::Folding>),
         }
 
@@ -94,6 +98,7 @@ macro_rules! landforms {
                 match self {
                     $(Landform::$kind(kind) => kind,)+
                     Landform::Structure(structure) => structure,
+                    Landform::Painted(painted) => painted,
                     Landform::Folding(folding) => &**folding,
                 }
             }
@@ -152,6 +157,11 @@ impl Landform {
     /// The carved ground of a planet; none until its world map is solved.
     pub(crate) fn structure(carved: Option<(Key, &Carved)>) -> Self {
         Landform::Structure(structure::Structure::new(carved))
+    }
+
+    /// A mask that is painted by hand.
+    pub(crate) fn painted(mask: MaskId, edits: Option<&Arc<Edits>>) -> Self {
+        Landform::Painted(painted::Painted::new(mask, edits))
     }
 
     /// How many octaves of noise one point takes.

@@ -1,0 +1,99 @@
+//! Masks of layers that are painted by hand: strokes lead from 0 towards 1, or back.
+
+use super::Edits;
+use super::index::Walk;
+use super::near::Near;
+use super::paint::Paint;
+use crate::planet::Key;
+use crate::sphere::NodeId;
+use crate::terrain::landform::MAX_BANDS;
+use glam::DVec3;
+use std::cell::RefCell;
+
+/// A painted mask, by a hash of its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct MaskId(Key);
+
+impl MaskId {
+    pub(crate) fn of(name: &str) -> Self {
+        Self(Key::of(name))
+    }
+
+    /// The two halves of the hash.
+    pub(super) fn words(self) -> [u64; 2] {
+        [(self.0.bits() >> 64) as u64, self.0.bits() as u64]
+    }
+}
+
+impl Edits {
+    /// The key of all paint of masks. None if there is none.
+    pub(crate) fn mask_key(&self) -> Option<Key> {
+        (!self.masks.is_empty()).then(|| self.masks.key_of_all())
+    }
+
+    /// The key of all edits that change heights: of the ground, and of masks of layers. None if there is none.
+    pub(crate) fn shape_key(&self) -> Option<Key> {
+        both(self.key(), self.mask_key())
+    }
+
+    /// The key of those that touch a node and the ground close around it. None if none does.
+    pub(crate) fn shape_key_near(&self, id: NodeId) -> Option<Key> {
+        both(self.ground.key_near(id, &self.roster), self.masks.key_near(id, &self.roster))
+    }
+
+    /// Whether paint of masks may be within a chord of a direction.
+    pub(crate) fn may_mask(&self, disc: (DVec3, f64)) -> bool {
+        let mut may = false;
+        self.masks.each_leaf(Some(disc), &mut |pieces| {
+            may |= pieces
+                .iter()
+                .any(|number| self.roster.piece(*number).is_some_and(|piece| piece.touches(disc.0, disc.1)));
+        });
+        may
+    }
+
+    /// Calls `each` with the number of each point that has paint of a mask, the paint from 0 to 1, and one gradient by
+    /// the direction for each of the spacings.
+    pub(crate) fn masked(
+        &self,
+        mask: MaskId,
+        dirs: &[DVec3],
+        spacings_rad: &[f64],
+        mut each: impl FnMut(usize, f64, &[DVec3]),
+    ) {
+        if self.masks.is_empty() {
+            return;
+        }
+        thread_local! {
+            static NEAR: RefCell<Near> = RefCell::default();
+        }
+        let bands = spacings_rad.len().min(MAX_BANDS);
+        let mut near = NEAR.take();
+        near.each_leaf(Walk::new(&self.masks), &self.roster, dirs, |points, near| {
+            for i in points.iter().map(|point| *point as usize) {
+                let (mut value, mut gradients) = (0.0, [DVec3::ZERO; MAX_BANDS]);
+                for (slot, arcs) in near.groups() {
+                    let Some(edit) = self.roster.edit(slot) else { continue };
+                    let Some(Paint::Mask { mask: of, amount }) = edit.paint() else { continue };
+                    let Some(weight) = edit.weighted(dirs[i], &arcs).filter(|_| *of == mask) else { continue };
+                    let (strength, share) = (amount.abs(), amount.abs() * weight.change_m);
+                    let left = if *amount > 0.0 { 1.0 - value } else { -value };
+                    for (gradient, &spacing_rad) in gradients.iter_mut().zip(spacings_rad) {
+                        *gradient = *gradient * (1.0 - share) + weight.gradient(spacing_rad) * (strength * left);
+                    }
+                    value = (value + left * share).clamp(0.0, 1.0);
+                }
+                each(i, value, &gradients[..bands]);
+            }
+        });
+        NEAR.set(near);
+    }
+}
+
+/// The key of two parts, each of which may be absent.
+fn both(ground: Option<Key>, masks: Option<Key>) -> Option<Key> {
+    match masks {
+        None => ground,
+        Some(masks) => Some(Key::of(&(ground, masks))),
+    }
+}
