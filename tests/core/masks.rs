@@ -72,7 +72,7 @@ fn slopes_follow_the_painted_mask_and_bounds_hold_its_layer() {
     plain.layers.remove(0);
     // Level ground of the layer: all slopes are those of the mask.
     plain.layers[0] = Layer { amplitude_m: 0.0, ..plain.layers[0].clone() };
-    plain.layers.insert(0, Layer { bias: 3.0, blend: Blend::Add, ..level() });
+    plain.layers.insert(0, Layer { bias: 2.0, blend: Blend::Add, ..level() });
     plain.layers[1] = Layer { bias: -2.0, ..masked_level() };
     for raggedness in [0.0, 0.7] {
         let points = [middle, at(-35.0, 45.5)];

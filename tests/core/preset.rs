@@ -207,7 +207,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         (
             "(version: 3, layers: [(masks: [Hight()])])",
             "f.ron:1:32: layers[0].masks[0]: there is no value `Hight` here; did you mean `Height`? use `Layer`, `Height`, \
-             `Slope`, `Latitude`",
+             `Slope`, `Latitude`, `Painted`",
         ),
         (
             "(version: 3, layers: [(masks: [Latitude(from: 3)])])",
@@ -216,7 +216,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         (
             "(version: 3, layers: [(masks: [Slope])])",
             "f.ron:1:32: layers[0].masks[0]: `Slope` is not what belongs here; use one of `Layer(...)`, `Height(...)`, \
-             `Slope(...)`, `Latitude(...)`",
+             `Slope(...)`, `Latitude(...)`, `Painted(...)`",
         ),
         (
             "(version: 3, layers: [(masks: 3)])",

@@ -97,8 +97,8 @@ fn each_parameter_runs_the_stages_it_declares_and_no_others() {
     for edit in edits {
         let stats = ask(&builder, &edit.planet, &view);
         let mut declared = edit.declared.within(Stages::OF_TILES);
-        // Another kind of mask needs noise only for slopes; a height map without a picture needs none.
-        let is_kind = ["masks[0]", ".shape"].iter().any(|end| edit.path.ends_with(end));
+        // Another kind of mask needs noise only for slopes; a painted one needs none, nor a height map without picture.
+        let is_kind = ["masks[0]", "masks[0].mask", ".shape"].iter().any(|end| edit.path.ends_with(end));
         if is_kind {
             declared = declared.within(stats.ran());
         }
