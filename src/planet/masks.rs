@@ -83,7 +83,8 @@ params! {
     /// Limits a layer to where strokes of the mask tool painted a mask of this name.
     pub struct PaintedMask {
         /// Name of the mask. Layers that name the same mask share it.
-        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::Text { max_chars: 48 }, Stage::Field | Stage::Height;
+        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::Text { max_chars: 48 },
+            Stage::Field | Stage::Height;
         /// Paint, from 0 to 1, at which the layer is fully off.
         from: f64 = 0.0, "Off at", Unit::None, linear(0.0, 1.0), Stage::Height;
         /// Paint at which the layer is fully on.

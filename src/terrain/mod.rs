@@ -316,7 +316,10 @@ impl Terrain {
     /// The same from the keys that all tiles have before edits.
     pub(crate) fn with_edits_near(&self, keys: TileKeys, id: NodeId) -> TileKeys {
         match &self.edits {
-            Some(edits) => self.content.with_edits(keys, (edits.shape_key_near(id), edits.paint_key_near(id))),
+            Some(edits) => {
+                let near = [edits.key_near(id), edits.mask_key_near(id), edits.paint_key_near(id)];
+                self.content.with_edits(keys, near)
+            }
             None => keys,
         }
     }

@@ -130,6 +130,8 @@ pub(super) struct TileContent {
     /// The layer stack, and the world maps that it reads.
     stack: Key,
     reads: Reads,
+    /// Whether a layer reads a mask that is painted.
+    reads_masks: bool,
     /// Biome relief.
     relief: Option<Key>,
     /// Climate at sea level, with its noise.
@@ -148,13 +150,13 @@ impl TileContent {
 }
 
 impl TileContent {
-    /// The keys of tiles with edits of the ground or of masks, and paint of the climate, of these keys.
-    pub(super) fn with_edits(&self, keys: TileKeys, (ground, paint): (Option<Key>, Option<Key>)) -> TileKeys {
+    /// The keys of tiles with edits of the ground, paint of masks and paint of the climate of these keys.
+    pub(super) fn with_edits(&self, keys: TileKeys, [ground, masks, paint]: [Option<Key>; 3]) -> TileKeys {
         // Biome relief follows the climate.
-        let shaping = (ground, paint.filter(|_| self.relief.is_some()));
+        let shaping = [ground, masks.filter(|_| self.reads_masks), paint.filter(|_| self.relief.is_some())];
         let changed = |key: Key, by: &dyn std::fmt::Debug| Key::of(&(key, by));
         TileKeys {
-            heights: if shaping == (None, None) { keys.heights } else { changed(keys.heights, &shaping) },
+            heights: if shaping == [None; 3] { keys.heights } else { changed(keys.heights, &shaping) },
             climate: paint.map_or(keys.climate, |paint| changed(keys.climate, &paint)),
         }
     }
@@ -186,11 +188,13 @@ impl Compiled {
         let mut fields: Vec<Key> = stack.field_keys().chain(relief_noises).collect();
 
         let heights = Key::of(&stack.joined());
-        let masks = painted.and_then(|edits| edits.mask_key());
-        let with_masks = |key: Key| masks.map_or(key, |masks| Key::of(&(key, masks)));
+        let with_masks = |stack: &LayerStack| match stack.painted_key() {
+            None => Key::of(&stack.joined()),
+            Some(masks) => Key::of(&(Key::of(&stack.joined()), masks)),
+        };
         let map_inputs = Inputs {
-            heights: with_masks(heights),
-            under: under.as_ref().map(|under| with_masks(Key::of(&under.joined()))),
+            heights: with_masks(&stack),
+            under: under.as_ref().map(with_masks),
             sea_level_m: planet.sea_level_m(),
             reads_coast: CompiledClimate::reads_coast(planet),
             structure: structure_inputs(planet),
@@ -207,11 +211,12 @@ impl Compiled {
         let content = TileContent {
             stack: heights,
             reads,
+            reads_masks: stack.painted_key().is_some(),
             relief: relief.as_ref().map(Key::of),
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
         let tiles = content.keys(final_map_keys(&map_inputs), plates);
-        let all = edits.as_ref().map(|edits| (edits.shape_key(), edits.paint_key()));
+        let all = edits.as_ref().map(|edits| [edits.key(), edits.mask_key(), edits.paint_key()]);
         let tiles = content.with_edits(tiles, all.unwrap_or_default());
         let [materials, cloud_map, optical_depth, air_tables] = texture_keys(planet);
         let keys = Keys {

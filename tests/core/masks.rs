@@ -5,6 +5,7 @@ use crate::support::dice::Dice;
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::planet::edits::{GroundEdit, MaskPaint, Smooth, Tool};
+use tellus::planet::param::{Stage, Stages};
 use tellus::planet::{Blend, Fbm, Layer, Mask, PaintedMask, Planet, Shape};
 use tellus::simd::Simd;
 use tellus::terrain::{Revision, Terrain};
@@ -147,6 +148,11 @@ fn a_stroke_rebuilds_the_tiles_that_it_touches_and_those_that_read_its_ground() 
     let mut more = planet.clone();
     more.edits.push(edit(paint("Dry", -0.5), 2.0, &[spot]));
     let changes = Revision::try_new(Arc::new(more)).unwrap().changes_since(&before);
-    assert!(changes.contains(tellus::planet::param::Stage::Height));
-    assert!(!changes.contains(tellus::planet::param::Stage::Field), "no noise is evaluated");
+    assert!(changes.contains(Stage::Height));
+    assert!(!changes.contains(Stage::Field), "no noise is evaluated");
+    // Paint that no layer reads changes nothing.
+    let mut unread = bumpy(vec![], vec![]);
+    let before = Revision::try_new(Arc::new(unread.clone())).unwrap();
+    unread.edits.push(edit(paint("Dry", 1.0), 2.0, &[spot]));
+    assert_eq!(Revision::try_new(Arc::new(unread)).unwrap().changes_since(&before), Stages::NONE);
 }

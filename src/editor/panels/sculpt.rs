@@ -99,9 +99,11 @@ impl SculptState {
     fn take_mask(&mut self, planet: &Planet, layer: usize, mask: usize) {
         let mask = planet.layers.get(layer).and_then(|layer| layer.masks.get(mask));
         let Some(Mask::Painted(PaintedMask { mask, .. })) = mask else { return };
-        let tool = Tool::Mask(MaskPaint { mask: mask.clone(), ..MaskPaint::default() });
-        (self.tool, self.in_hand, self.measures) = (tool.index(), true, false);
-        self.brush(planet).tool = tool;
+        let tool = Tool::Mask(MaskPaint::default()).index();
+        (self.tool, self.in_hand, self.measures) = (tool, true, false);
+        if let Tool::Mask(paint) = &mut self.brush(planet).tool {
+            paint.mask.clone_from(mask);
+        }
     }
 
     /// Gives the picture tool in hand a picture.

@@ -92,8 +92,8 @@ impl Tool {
         )
     }
 
-    /// Whether the tool leaves the ground under it as it is: it paints the climate, the
-    /// clouds, a mask of layers or the structure.
+    /// Whether the tool leaves the ground under it as it is: it paints the climate, the clouds, a mask of
+    /// layers or the structure.
     pub fn is_paint(&self) -> bool {
         matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_) | Tool::Mask(_))
             || self.is_structural()
@@ -362,8 +362,9 @@ params! {
 params! {
     /// `v + (1 - v) * amount * w`; a negative amount erases: `v + v * amount * w`
     pub struct MaskPaint {
-        /// Name of the mask. Layers choose it among their masks.
-        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::Text { max_chars: 48 }, Stage::Height;
+        /// Name of the mask. The masks of layers refer to it by this name.
+        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::Text { max_chars: 48 },
+            Stage::Height;
         /// Share of the way to full paint; negative erases.
         amount: f64 = 1.0, "Amount", Unit::None, linear(-1.0, 1.0), Stage::Height;
     }

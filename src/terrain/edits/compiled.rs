@@ -73,6 +73,17 @@ struct Nearest {
     arc: u32,
 }
 
+/// How paint fades at a point.
+struct Fade {
+    weight: f64,
+    /// Derivative of the weight by the distance in radii, before the outline is ragged.
+    by_plain: f64,
+    /// The nearest arc among those of the edit.
+    arc: u32,
+    /// Derivative by the noise of a ragged outline.
+    outline: Option<(f64, Sampled)>,
+}
+
 /// What an edit does at a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effect<'a> {
@@ -305,28 +316,34 @@ impl CompiledEdit {
         if let Some(Paint::Structure(paint)) = self.paint() { Some(*paint) } else { None }
     }
 
-    /// The weight of paint, by these of its arcs: 1 in the core, 0 from the radius on.
-    pub(super) fn weight(&self, dir: DVec3, arcs: &Arcs<'_>) -> f64 {
-        let Some(place) = self.place(dir, arcs) else { return 0.0 };
-        let stretch = self.outline.as_ref().map_or(1.0, |noise| self.stretch(noise.at(dir).value).0);
-        falloff(angle_of(place.nearest.chord2) / self.radius_rad * stretch, self.core).0
-    }
-
-    /// The weight of paint with its gradient, as the change of an effect. None where it is 0.
-    pub(super) fn weighted(&self, dir: DVec3, arcs: &Arcs<'_>) -> Option<Effect<'_>> {
+    /// How paint fades at a direction, by these of its arcs. None beyond its reach.
+    fn fade(&self, dir: DVec3, arcs: &Arcs<'_>) -> Option<Fade> {
         let nearest = self.place(dir, arcs)?.nearest;
         let plain = angle_of(nearest.chord2) / self.radius_rad;
         let ragged = self.outline.as_ref().map(|noise| noise.at(dir));
         let (stretch, by_noise) = ragged.map_or((1.0, 0.0), |noise| self.stretch(noise.value));
         let (weight, by_t) = falloff(plain * stretch, self.core);
-        let outward = if by_t == 0.0 { DVec3::ZERO } else { away(dir, self.arcs[nearest.arc as usize].foot(dir).dir) };
-        (weight > 0.0).then(|| Effect {
+        let outline = ragged.map(|noise| (by_t * plain * by_noise, noise));
+        Some(Fade { weight, by_plain: by_t * stretch, arc: nearest.arc, outline })
+    }
+
+    /// The weight of paint, by these of its arcs: 1 in the core, 0 from the radius on.
+    pub(super) fn weight(&self, dir: DVec3, arcs: &Arcs<'_>) -> f64 {
+        self.fade(dir, arcs).map_or(0.0, |fade| fade.weight)
+    }
+
+    /// The weight of paint with its gradient, as the change of an effect. None where it is 0.
+    pub(super) fn weighted(&self, dir: DVec3, arcs: &Arcs<'_>) -> Option<Effect<'_>> {
+        let Fade { weight, by_plain, arc, outline } = self.fade(dir, arcs).filter(|fade| fade.weight > 0.0)?;
+        // In the core no direction leads away from the line.
+        let foot = (by_plain != 0.0).then(|| self.arcs[arc as usize].foot(dir).dir);
+        Some(Effect {
             change_m: weight,
             by_ground: 0.0,
-            smooth: outward * (by_t * stretch / self.radius_rad),
+            smooth: foot.map_or(DVec3::ZERO, |foot| away(dir, foot) * (by_plain / self.radius_rad)),
             feature_rad: self.radius_rad * (1.0 - self.core).max(0.1),
             ground: DVec3::ZERO,
-            outline: ragged.map(|noise| (by_t * plain * by_noise, noise)),
+            outline,
             rough: None,
             detail: None,
         })

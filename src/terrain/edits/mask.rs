@@ -31,29 +31,21 @@ impl Edits {
         (!self.masks.is_empty()).then(|| self.masks.key_of_all())
     }
 
-    /// The key of all edits that change heights: of the ground, and of masks of layers. None if there is none.
-    pub(crate) fn shape_key(&self) -> Option<Key> {
-        both(self.key(), self.mask_key())
-    }
-
-    /// The key of those that touch a node and the ground close around it. None if none does.
-    pub(crate) fn shape_key_near(&self, id: NodeId) -> Option<Key> {
-        both(self.ground.key_near(id, &self.roster), self.masks.key_near(id, &self.roster))
+    /// The key of the paint of masks that touches a node and the ground close around it. None if none does.
+    pub(crate) fn mask_key_near(&self, id: NodeId) -> Option<Key> {
+        self.masks.key_near(id, &self.roster)
     }
 
     /// Whether paint of masks may be within a chord of a direction.
     pub(crate) fn may_mask(&self, disc: (DVec3, f64)) -> bool {
+        let touches = |number: &u32| self.roster.piece(*number).is_some_and(|piece| piece.touches(disc.0, disc.1));
         let mut may = false;
-        self.masks.each_leaf(Some(disc), &mut |pieces| {
-            may |= pieces
-                .iter()
-                .any(|number| self.roster.piece(*number).is_some_and(|piece| piece.touches(disc.0, disc.1)));
-        });
+        self.masks.each_leaf(Some(disc), &mut |pieces| may = may || pieces.iter().any(touches));
         may
     }
 
-    /// Calls `each` with the number of each point that has paint of a mask, the paint from 0 to 1, and one gradient by
-    /// the direction for each of the spacings.
+    /// Calls `each` with the number of each point that is near strokes, the paint of a mask there from 0 to 1, and one
+    /// gradient by the direction for each of the spacings.
     pub(crate) fn masked(
         &self,
         mask: MaskId,
@@ -74,10 +66,10 @@ impl Edits {
                 let (mut value, mut gradients) = (0.0, [DVec3::ZERO; MAX_BANDS]);
                 for (slot, arcs) in near.groups() {
                     let Some(edit) = self.roster.edit(slot) else { continue };
-                    let Some(Paint::Mask { mask: of, amount }) = edit.paint() else { continue };
-                    let Some(weight) = edit.weighted(dirs[i], &arcs).filter(|_| *of == mask) else { continue };
+                    let Some(Paint::Mask { mask: of, amount }) = edit.paint().copied() else { continue };
+                    let Some(weight) = (of == mask).then(|| edit.weighted(dirs[i], &arcs)).flatten() else { continue };
                     let (strength, share) = (amount.abs(), amount.abs() * weight.change_m);
-                    let left = if *amount > 0.0 { 1.0 - value } else { -value };
+                    let left = if amount > 0.0 { 1.0 - value } else { -value };
                     for (gradient, &spacing_rad) in gradients.iter_mut().zip(spacings_rad) {
                         *gradient = *gradient * (1.0 - share) + weight.gradient(spacing_rad) * (strength * left);
                     }
@@ -87,13 +79,5 @@ impl Edits {
             }
         });
         NEAR.set(near);
-    }
-}
-
-/// The key of two parts, each of which may be absent.
-fn both(ground: Option<Key>, masks: Option<Key>) -> Option<Key> {
-    match masks {
-        None => ground,
-        Some(masks) => Some(Key::of(&(ground, masks))),
     }
 }

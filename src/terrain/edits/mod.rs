@@ -203,6 +203,11 @@ impl Edits {
         (!self.climate.is_empty()).then(|| Key::of(&(self.climate.key_of_all(), &self.places.places)))
     }
 
+    /// The key of the edits that touch a node and the ground close around it. None if none does.
+    pub(crate) fn key_near(&self, id: NodeId) -> Option<Key> {
+        self.ground.key_near(id, &self.roster)
+    }
+
     /// The key of paint of the climate that touches a node and the ground close around it. None if none does.
     pub(crate) fn paint_key_near(&self, id: NodeId) -> Option<Key> {
         let key = self.climate.key_near(id, &self.roster)?;

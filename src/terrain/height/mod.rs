@@ -188,6 +188,11 @@ impl LayerStack {
         })
     }
 
+    /// The key of the paint of the masks that layers read. None if there is none, or if no layer reads it.
+    pub(crate) fn painted_key(&self) -> Option<Key> {
+        self.layers.iter().filter(|layer| layer.needed).find_map(|layer| layer.landform.painted_key())
+    }
+
     /// How many layers stand before those of the preset.
     pub(crate) fn layers_before(&self) -> usize {
         usize::from(self.has_structure)
@@ -198,7 +203,7 @@ impl LayerStack {
         self.layers.iter().filter(|layer| layer.needed).map(CompiledLayer::field_key)
     }
 
-    /// Everything that heights follow from, to be hashed. Layers that are not needed leave only a gap, so that masks by
+    /// Everything that heights follow from but paint of masks, to be hashed. Layers that are not needed leave only a gap, so that masks by
     /// index still tell layers apart.
     pub(crate) fn joined(&self) -> impl fmt::Debug {
         let layers: Vec<_> = self.layers.iter().map(|layer| layer.needed.then(|| Key::of(layer))).collect();

@@ -164,6 +164,11 @@ impl Landform {
         Landform::Painted(painted::Painted::new(mask, edits))
     }
 
+    /// The key of the strokes that paint it. None if no stroke does.
+    pub(crate) fn painted_key(&self) -> Option<Key> {
+        if let Landform::Painted(painted) = self { painted.key() } else { None }
+    }
+
     /// How many octaves of noise one point takes.
     pub(crate) fn octave_count(&self) -> usize {
         self.evaluate().octave_count()

@@ -5,20 +5,25 @@ use crate::planet::Key;
 use crate::terrain::edits::{Edits, MaskId, chord_of};
 use glam::DVec3;
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
+/// Fields of earlier revisions must not keep their edits alive, so it refers to them weakly.
 #[derive(Clone)]
 pub(crate) struct Painted {
     mask: MaskId,
-    edits: Option<Arc<Edits>>,
-    /// Of the strokes of all masks.
+    edits: Weak<Edits>,
+    /// Of the strokes of all masks. None if there are none.
     key: Option<Key>,
 }
 
 impl Painted {
     pub(super) fn new(mask: MaskId, edits: Option<&Arc<Edits>>) -> Self {
-        let key = edits.and_then(|edits| edits.mask_key());
-        Self { mask, edits: edits.filter(|_| key.is_some()).cloned(), key }
+        Self { mask, edits: edits.map(Arc::downgrade).unwrap_or_default(), key: edits.and_then(|e| e.mask_key()) }
+    }
+
+    /// The key of the strokes of all masks. None if there are none.
+    pub(super) fn key(&self) -> Option<Key> {
+        self.key
     }
 }
 
@@ -41,16 +46,16 @@ impl Evaluate for Painted {
     }
 
     fn bounds(&self) -> (f64, f64) {
-        (0.0, if self.edits.is_some() { 1.0 } else { 0.0 })
+        (0.0, if self.key.is_some() { 1.0 } else { 0.0 })
     }
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let may = self.edits.as_ref().is_some_and(|edits| edits.may_mask((dir_planet, chord_of(angle_rad))));
+        let may = self.edits.upgrade().is_some_and(|edits| edits.may_mask((dir_planet, chord_of(angle_rad))));
         (0.0, if may { 1.0 } else { 0.0 })
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Some(edits) = &self.edits else { return };
+        let Some(edits) = self.edits.upgrade() else { return };
         let sums = &mut scratch.sums;
         edits.masked(self.mask, chunk.dirs, chunk.spacings_rad, |i, value, gradients| {
             sums.value[i] += value;
