@@ -10,6 +10,8 @@ const THRESHOLD: f32 = 1.0;
 const MOST_PIXELS: usize = 200;
 
 fn is_same(harness: &mut Editor, name: &str) {
+    // The scale bar needs the ground, which another thread builds.
+    app::until(harness, "the scale bar", |harness| harness.state().viewport().metres_per_point().is_some());
     let options = egui_kittest::SnapshotOptions::new().threshold(THRESHOLD).max_failed_pixels(MOST_PIXELS);
     for theme in [egui::Theme::Dark, egui::Theme::Light] {
         harness.ctx.set_theme(theme);

@@ -203,8 +203,8 @@ impl LayerStack {
         self.layers.iter().filter(|layer| layer.needed).map(CompiledLayer::field_key)
     }
 
-    /// Everything that heights follow from but paint of masks, to be hashed. Layers that are not needed leave only a gap, so that masks by
-    /// index still tell layers apart.
+    /// Everything that heights follow from but paint of masks, to be hashed. Layers that are not needed leave only a
+    /// gap, so that masks by index still tell layers apart.
     pub(crate) fn joined(&self) -> impl fmt::Debug {
         let layers: Vec<_> = self.layers.iter().map(|layer| layer.needed.then(|| Key::of(layer))).collect();
         (layers, self.slope_bands.clone(), self.height_curve.clone(), self.radius_m)
