@@ -86,9 +86,9 @@ params! {
         mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::Text { max_chars: 48 },
             Stage::Field | Stage::Height;
         /// Paint, from 0 to 1, at which the layer is fully off.
-        from: f64 = 0.0, "Off at", Unit::None, linear(0.0, 1.0), Stage::Height;
+        from_share: f64 = 0.0, "Off at", Unit::None, linear(0.0, 1.0), Stage::Height;
         /// Paint at which the layer is fully on.
-        to: f64 = 1.0, "On at", Unit::None, linear(0.0, 1.0), Stage::Height;
+        to_share: f64 = 1.0, "On at", Unit::None, linear(0.0, 1.0), Stage::Height;
         /// Swaps on and off.
         invert: bool = false, "Invert", Unit::None, Domain::Flag, Stage::Height;
     }
@@ -102,7 +102,7 @@ impl Mask {
             Mask::Height(mask) => [("from_m", mask.from_m), ("to_m", mask.to_m)],
             Mask::Slope(mask) => [("from_deg", mask.from_deg), ("to_deg", mask.to_deg)],
             Mask::Latitude(mask) => [("from_deg", mask.from_deg), ("to_deg", mask.to_deg)],
-            Mask::Painted(mask) => [("from", mask.from), ("to", mask.to)],
+            Mask::Painted(mask) => [("from_share", mask.from_share), ("to_share", mask.to_share)],
         }
     }
 
@@ -119,5 +119,20 @@ impl Mask {
         if let Mask::Layer(mask) = self {
             name.clone_into(&mut mask.layer);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::param::Choice;
+
+    /// The kinds keep what they have in common; the ends of a range of noise are not those of a share of paint.
+    #[test]
+    fn a_mask_that_becomes_a_painted_one_is_on_where_it_is_painted_in_full() {
+        let mut mask = Mask::default();
+        assert!(matches!(mask, Mask::Layer(_)));
+        mask.set_index(Mask::Painted(PaintedMask::default()).index());
+        assert_eq!(mask, Mask::Painted(PaintedMask::default()));
     }
 }

@@ -5,6 +5,7 @@ use super::{press, slide};
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use tellus::editor::command::Command;
+use tellus::editor::viewport::layer_view::LayerQuantity;
 use tellus::planet::edits::{PictureStamp, Raise, Tool};
 use tellus::planet::param::Choice;
 use tellus::planet::picture::PictureExtent;
@@ -334,6 +335,9 @@ fn a_painted_mask_of_a_layer_takes_the_mask_tool_and_strokes_let_the_layer_act()
     click(&mut harness, "Terrain");
     app::scroll_to(&mut harness, "Paint mask 1 of Bumps");
     click(&mut harness, "Paint mask 1 of Bumps");
+    app::until(&mut harness, "the mask on the planet", |harness| {
+        harness.state().viewport().layer_view().quantity() == Some(LayerQuantity::Mask)
+    });
     let middle = canvas(&harness).center();
     let highest_m = |harness: &app::Editor| {
         let planet = planet(harness);

@@ -34,8 +34,8 @@ use crate::editor::viewport::pointer::KnownPlace;
 use crate::editor::viewport::{Click, TabLink};
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::row_view::{LockView, RowView};
-use crate::planet::Planet;
 use crate::planet::param::{ParamPath, Segment};
+use crate::planet::{Planet, Tool};
 use eframe::egui;
 use finding::Finding;
 use layout::Layout;
@@ -206,13 +206,17 @@ impl PanelState {
             Some(_) => self.structure.link(),
             None => TabLink::default(),
         };
-        let (solo, overlay) = match self.layout.visible().any(|tab| PANELS[tab].part == "layers") {
-            true => self.layers.link(),
-            false => (Vec::new(), None),
-        };
         // A tool in hand takes all clicks.
         let sculpts = self.layout.visible().any(|tab| PANELS[tab].sculpts);
         let sculpt = if sculpts { self.sculpt.link() } else { Default::default() };
+        // The mask of a layer shows while it is painted.
+        let paints_mask = sculpt.brush.as_ref().is_some_and(|brush| matches!(brush.tool, Tool::Mask(_)));
+        let shows_layers = self.layout.visible().any(|tab| PANELS[tab].part == "layers");
+        let (mut solo, overlay) = self.layers.link();
+        if !shows_layers {
+            solo.clear();
+        }
+        let overlay = overlay.filter(|_| shows_layers || paints_mask);
         match sculpt.brush.is_some() || sculpt.measures {
             true => TabLink { solo, overlay, sculpt, ..TabLink::default() },
             false => TabLink { solo, overlay, sculpt, ..link },

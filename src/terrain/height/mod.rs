@@ -343,7 +343,7 @@ impl CompiledMask {
             Mask::Painted(mask) => {
                 let id = MaskId::of(&mask.mask);
                 let place = painted_masks(planet).position(|other| other == id)?;
-                (Source::Layer(planet.layers.len() + place), mask.from, mask.to, mask.invert)
+                (Source::Layer(planet.layers.len() + place), mask.from_share, mask.to_share, mask.invert)
             }
             Mask::Height(mask) => (Source::Height, mask.from_m, mask.to_m, mask.invert),
             Mask::Slope(mask) => {
