@@ -75,7 +75,8 @@ impl Terrain {
             self.apply_edits(edits, &points.dirs, spacings_rad, heights, &mut scratch.edits, None);
         }
         if let Some(relief) = &self.relief {
-            let is_painted = self.edits.as_ref().is_some_and(|edits| edits.may_paint(&points.dirs));
+            let near = &mut scratch.edits;
+            let is_painted = self.edits.as_ref().is_some_and(|edits| edits.may_paint(&points.dirs, near));
             relief.add(heights, spacings_rad, points, inputs, &mut scratch.shares, is_painted);
         }
     }

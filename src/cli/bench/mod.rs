@@ -94,7 +94,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             planets.push((shipped.file, Arc::new(planet)));
         }
     }
-    let Some((_, first)) = planets.first() else {
+    let Some((first_file, first)) = planets.first() else {
         return Err("no preset without a structure is shipped".to_owned().into());
     };
     let wants = |part: Part| args.only.is_none_or(|only| only == part);
@@ -124,7 +124,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         report["heaviest_edits"] = json!(edits::measure(&planets[heaviest].1, None));
     }
     if wants(Part::Sculpt) {
-        report["sculpt"] = sculpt::measure()?;
+        report["sculpt"] = sculpt::measure((first_file, first))?;
     }
     if wants(Part::Structure) {
         report["structure"] = structure::measure(&shipped::default_planet())?;

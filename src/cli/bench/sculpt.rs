@@ -1,5 +1,6 @@
-//! Time and memory of ten thousand strokes all over a planet: a full rebuild of a view that sees about a hundred of
-//! them and of one that sees more, and the time from one stroke more to its tiles.
+//! Time and memory of ten thousand strokes all over a planet: full rebuilds of views near and far, with the strokes and
+//! without, and the time from one stroke more to its tiles. Once on a planet of one layer, which is the worst case, and
+//! once on a shipped planet.
 
 use super::edits::Bench;
 use super::{median, p95, repeat};
@@ -16,35 +17,39 @@ use std::sync::Arc;
 
 /// Strokes on the planet.
 const STROKES: usize = 10_000;
-/// Points of each stroke, and the distance between them.
+/// Points of each stroke, and the distance between them in radii of the planet.
 const POINTS: usize = 10;
-const STEP_KM: f64 = 4.0;
-const RADIUS_KM: f64 = 8.0;
-const PLANET_KM: f64 = 1000.0;
-/// Height of the eye over the ground in each view.
-const ALTITUDES_M: [f64; 2] = [3.5e4, 1.5e5];
+const STEP_RAD: f64 = 0.004;
+/// Radius of a stroke, in radii of the planet: strokes cover six tenths of it.
+const RADIUS_RAD: f64 = 0.008;
+/// Height of the eye over the ground in each view, in radii of the planet.
+const ALTITUDES: [f64; 3] = [0.035, 0.15, 0.4];
 /// Strokes that are added one after the other.
 const RUNS: usize = 30;
 
-/// The `sculpt` object of the report.
-pub(super) fn measure() -> Result<Value, String> {
+/// The `sculpt` list of the report. `shipped`: a shipped planet, and the name of its preset.
+pub(super) fn measure((file, shipped): (&str, &Arc<Planet>)) -> Result<Value, String> {
+    Ok(json!([measure_on("one layer", &one_layer())?, measure_on(file, shipped)?]))
+}
+
+fn measure_on(name: &str, bare: &Planet) -> Result<Value, String> {
     let invalid = |error: crate::planet::InvalidPlanet| error.to_string();
-    let bare = Arc::new(planet(Vec::new()));
+    let bare = Arc::new(Planet { edits: Default::default(), ..bare.clone() });
     let before_mb = resident_mb();
-    let many = Arc::new(planet(strokes()));
+    let many = Arc::new(Planet { edits: strokes(bare.radius_km).into_iter().collect(), ..Planet::clone(&bare) });
     let terrain = Terrain::try_new(many.clone()).map_err(invalid)?;
     let after_mb = resident_mb();
     drop(terrain);
 
     let mut views = Vec::new();
-    for altitude_m in ALTITUDES_M {
-        let view = view(altitude_m);
+    for altitude in ALTITUDES {
+        let view = view(&bare, altitude);
         let surface = build_now(&many, &view).map_err(invalid)?;
         let bare_surface = build_now(&bare, &view).map_err(invalid)?;
         let full = |planet: &Arc<Planet>| repeat(|| drop(build_now(planet, &view)));
         let (with, without) = (median(&full(&many)), median(&full(&bare)));
         views.push(json!({
-            "altitude_m": altitude_m,
+            "altitude_m": altitude * bare.radius_m(),
             "strokes_in_view": in_view(&many, &surface),
             "tiles": surface.stats.tiles,
             "tiles_without": bare_surface.stats.tiles,
@@ -54,17 +59,17 @@ pub(super) fn measure() -> Result<Value, String> {
         }));
     }
 
-    let (bench, view) = (Bench::new(DEFAULT_BUDGET_BYTES), view(ALTITUDES_M[1]));
+    let (bench, view) = (Bench::new(DEFAULT_BUDGET_BYTES), view(&bare, ALTITUDES[1]));
     bench.settle(&many, &view);
     let (mut times, mut compile_ms, mut edited) = (Vec::new(), Vec::new(), Planet::clone(&many));
     for run in 0..RUNS {
         // A stroke that grows as one does under the hand.
         if run == 0 {
-            edited.edits.push(GroundEdit { radius_km: RADIUS_KM, ..stroke(DVec3::X, 0.0, 1) });
+            edited.edits.push(stroke(bare.radius_km, DVec3::X, 0.0, 1));
         }
         let last = edited.edits.len() - 1;
         if let Some(edit) = edited.edits.get_mut(last) {
-            edit.points = stroke(middle().direction(), 0.02 * run as f64, 2).points;
+            edit.points = stroke(bare.radius_km, middle().direction(), 0.02 * run as f64, 2).points;
         }
         let Some(([_, secs], stats)) = bench.settle(&Arc::new(edited.clone()), &view) else { continue };
         times.push(secs * 1000.0);
@@ -73,6 +78,7 @@ pub(super) fn measure() -> Result<Value, String> {
     times.sort_by(f64::total_cmp);
     compile_ms.sort_by(f64::total_cmp);
     Ok(json!({
+        "planet": name,
         "strokes": STROKES,
         "views": views,
         "stroke_ms": median(&times),
@@ -83,41 +89,45 @@ pub(super) fn measure() -> Result<Value, String> {
     }))
 }
 
-fn planet(edits: Vec<GroundEdit>) -> Planet {
+fn one_layer() -> Planet {
     let layer = Layer {
         amplitude_m: 400.0,
         shape: Shape::Fbm(Fbm { wavelength_km: 300.0, octaves: 12, ..Fbm::default() }),
         ..Layer::default()
     };
-    Planet { radius_km: PLANET_KM, layers: vec![layer], edits: edits.into_iter().collect(), ..Planet::default() }
+    Planet { radius_km: 1000.0, layers: vec![layer], ..Planet::default() }
 }
 
 fn middle() -> LatLon {
     LatLon::from_degrees(12.0, -70.0)
 }
 
-fn view(altitude_m: f64) -> View {
-    let height_m = PLANET_KM * 1000.0 + altitude_m;
-    let camera = Camera::over(middle(), height_m, 0.3, -1.4, Camera::DEFAULT_FOV_Y_RAD);
+fn view(planet: &Planet, altitude: f64) -> View {
+    let camera = Camera::over(middle(), planet.radius_m() * (1.0 + altitude), 0.3, -1.4, Camera::DEFAULT_FOV_Y_RAD);
     View { camera, size_px: [1280, 800], quality: Quality::Medium }
 }
 
-fn strokes() -> Vec<GroundEdit> {
+fn strokes(planet_km: f64) -> Vec<GroundEdit> {
     let spread = geo::spread(STROKES).enumerate();
     // Headings by the golden angle: no two neighbours run alike.
-    spread.map(|(number, dir)| stroke(dir, 2.399_963 * number as f64, POINTS)).collect()
+    spread.map(|(number, dir)| stroke(planet_km, dir, 2.399_963 * number as f64, POINTS)).collect()
 }
 
 /// A stroke that bends a little.
-fn stroke(from: DVec3, heading_rad: f64, points: usize) -> GroundEdit {
+fn stroke(planet_km: f64, from: DVec3, heading_rad: f64, points: usize) -> GroundEdit {
     let (east, north) = east_north(from);
     let point = |step: usize| {
-        let (heading_rad, away_rad) = (heading_rad + 0.05 * step as f64, step as f64 * STEP_KM / PLANET_KM);
+        let (heading_rad, away_rad) = (heading_rad + 0.05 * step as f64, step as f64 * STEP_RAD);
         let along = east * libm::sin(heading_rad) + north * libm::cos(heading_rad);
         EditPoint::under((from * libm::cos(away_rad) + along * libm::sin(away_rad)).normalize())
     };
     let tool = Tool::Raise(Raise { amount_m: 100.0 });
-    GroundEdit { tool, radius_km: RADIUS_KM, points: (0..points).map(point).collect(), ..GroundEdit::default() }
+    GroundEdit {
+        tool,
+        radius_km: RADIUS_RAD * planet_km,
+        points: (0..points).map(point).collect(),
+        ..GroundEdit::default()
+    }
 }
 
 /// Strokes with a point on a tile of the surface that the camera sees.
@@ -129,7 +139,7 @@ fn in_view(planet: &Planet, surface: &Surface) -> usize {
     let is_seen = |point: &EditPoint| {
         let dir = point.direction();
         let is_drawn = levels.iter().any(|level| leaves.contains(&NodeId::containing(dir, *level)));
-        let place_m = dir * PLANET_KM * 1000.0;
+        let place_m = dir * planet.radius_m();
         let is_drawn = is_drawn && place_m.dot(camera.position_planet_m - place_m) > 0.0;
         let at = camera.planet_from_view.inverse() * (place_m - camera.position_planet_m);
         let half = -at.z * (0.5 * camera.fov_y_rad).tan();

@@ -2,7 +2,7 @@
 
 use super::gullies::{Carved, Gullies};
 use super::index::{Hash, Piece, chord_of};
-use super::near::Arcs;
+use super::nearest::Nearest;
 use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
 use super::path::{self, Arc, angle_of};
@@ -17,7 +17,7 @@ use crate::planet::{GroundEdit, Limit, Tool};
 use glam::DVec3;
 
 /// Arcs of a piece.
-const PIECE: usize = 8;
+const PIECE: usize = 4;
 /// Discs wider than this count as the whole sphere.
 const WIDEST_RAD: f64 = 1.2;
 /// Points from the middle of a fade to its end from which a gradient shows the fade.
@@ -57,20 +57,11 @@ pub(super) struct CompiledEdit {
     context: u128,
 }
 
-/// What of an edit is near a point.
+/// Of a road at a point: sums over near arcs of weight and of weight times height, each with its gradient.
 #[derive(Clone, Copy, Debug, Default)]
-struct Place {
-    nearest: Nearest,
-    /// Of a road: sums over near arcs of weight and of weight times height, each with its gradient.
+struct Average {
     weight: (f64, DVec3),
     weighted_m: (f64, DVec3),
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct Nearest {
-    chord2: f64,
-    /// Its arc among those of the edit.
-    arc: u32,
 }
 
 /// How paint fades at a point.
@@ -78,8 +69,6 @@ struct Fade {
     weight: f64,
     /// Derivative of the weight by the distance in radii, before the outline is ragged.
     by_plain: f64,
-    /// The nearest arc among those of the edit.
-    arc: u32,
     /// Derivative by the noise of a ragged outline.
     outline: Option<(f64, Sampled)>,
 }
@@ -269,41 +258,35 @@ impl CompiledEdit {
         self.arcs.get(arc as usize).is_some_and(|arc| arc.chord2(dir).0 <= most * most)
     }
 
-    /// What is near a direction, of these arcs. None if the edit does not reach there.
-    fn place(&self, dir: DVec3, arcs: &Arcs<'_>) -> Option<Place> {
-        let most = self.reach_chord * self.reach_chord;
-        let mut nearest = Nearest { chord2: f64::MAX, arc: 0 };
-        for number in arcs.at(dir) {
-            let (chord2, _) = self.arcs[number as usize].chord2(dir);
-            if chord2 < nearest.chord2 {
-                nearest = Nearest { chord2, arc: number };
-            }
-        }
-        (nearest.chord2 <= most).then(|| {
-            let mut place = Place { nearest, ..Place::default() };
-            if let CompiledTool::Road { .. } = self.tool {
-                self.average(dir, arcs, &mut place);
-            }
-            place
-        })
+    /// All arcs of the edit.
+    pub(super) fn arcs(&self) -> &[Arc] {
+        &self.arcs
     }
 
-    /// Averages the heights of a road over its near arcs.
-    fn average(&self, dir: DVec3, arcs: &Arcs<'_>, place: &mut Place) {
-        for arc in arcs.at(dir).map(|number| &self.arcs[number as usize]) {
-            let t = angle_of(arc.chord2(dir).0) / self.radius_rad;
+    /// Squared chord of the distance to which it reaches.
+    pub(super) fn reach_chord2(&self) -> f64 {
+        self.reach_chord * self.reach_chord
+    }
+
+    /// The heights of a road over these of its arcs.
+    fn average(&self, dir: DVec3, arcs: &[u32]) -> Average {
+        let mut sum = Average::default();
+        for arc in arcs.iter().map(|number| &self.arcs[*number as usize]) {
+            let (chord2, inside) = arc.chord2(dir);
+            let t = angle_of(chord2) / self.radius_rad;
             if t >= 1.0 {
                 continue;
             }
-            let foot = arc.foot(dir);
+            let foot = arc.foot(dir, inside);
             let (weight, by_t) = falloff(t, self.core);
             let weight_by_dir = away(dir, foot.dir) * (by_t / self.radius_rad);
             let (height_m, height_by_dir) = arc.value(&foot);
-            place.weight.0 += weight;
-            place.weight.1 += weight_by_dir;
-            place.weighted_m.0 += weight * height_m;
-            place.weighted_m.1 += weight_by_dir * height_m + height_by_dir * weight;
+            sum.weight.0 += weight;
+            sum.weight.1 += weight_by_dir;
+            sum.weighted_m.0 += weight * height_m;
+            sum.weighted_m.1 += weight_by_dir * height_m + height_by_dir * weight;
         }
+        sum
     }
 
     /// What the edit paints.
@@ -316,27 +299,29 @@ impl CompiledEdit {
         if let Some(Paint::Structure(paint)) = self.paint() { Some(*paint) } else { None }
     }
 
-    /// How paint fades at a direction, by these of its arcs. None beyond its reach.
-    fn fade(&self, dir: DVec3, arcs: &Arcs<'_>) -> Option<Fade> {
-        let nearest = self.place(dir, arcs)?.nearest;
+    /// How paint fades at a direction within reach.
+    fn fade(&self, dir: DVec3, nearest: &Nearest) -> Fade {
         let plain = angle_of(nearest.chord2) / self.radius_rad;
         let ragged = self.outline.as_ref().map(|noise| noise.at(dir));
         let (stretch, by_noise) = ragged.map_or((1.0, 0.0), |noise| self.stretch(noise.value));
         let (weight, by_t) = falloff(plain * stretch, self.core);
         let outline = ragged.map(|noise| (by_t * plain * by_noise, noise));
-        Some(Fade { weight, by_plain: by_t * stretch, arc: nearest.arc, outline })
+        Fade { weight, by_plain: by_t * stretch, outline }
     }
 
-    /// The weight of paint, by these of its arcs: 1 in the core, 0 from the radius on.
-    pub(super) fn weight(&self, dir: DVec3, arcs: &Arcs<'_>) -> f64 {
-        self.fade(dir, arcs).map_or(0.0, |fade| fade.weight)
+    /// The weight of paint at a direction within reach: 1 in the core, 0 from the radius on.
+    pub(super) fn weight(&self, dir: DVec3, nearest: &Nearest) -> f64 {
+        self.fade(dir, nearest).weight
     }
 
     /// The weight of paint with its gradient, as the change of an effect. None where it is 0.
-    pub(super) fn weighted(&self, dir: DVec3, arcs: &Arcs<'_>) -> Option<Effect<'_>> {
-        let Fade { weight, by_plain, arc, outline } = self.fade(dir, arcs).filter(|fade| fade.weight > 0.0)?;
+    pub(super) fn weighted(&self, dir: DVec3, nearest: &Nearest) -> Option<Effect<'_>> {
+        let Fade { weight, by_plain, outline } = self.fade(dir, nearest);
+        if weight <= 0.0 {
+            return None;
+        }
         // In the core no direction leads away from the line.
-        let foot = (by_plain != 0.0).then(|| self.arcs[arc as usize].foot(dir).dir);
+        let foot = (by_plain != 0.0).then(|| self.arcs[nearest.arc as usize].foot(dir, nearest.inside).dir);
         Some(Effect {
             change_m: weight,
             by_ground: 0.0,
@@ -349,17 +334,16 @@ impl CompiledEdit {
         })
     }
 
-    /// Whether a direction is within reach of these of its arcs.
-    pub(super) fn reaches(&self, dir: DVec3, arcs: &Arcs<'_>) -> bool {
-        self.place(dir, arcs).is_some()
-    }
-
-    /// What the edit does to ground of a height, by these of its arcs. None if nothing. `read`: what it has read of the
-    /// ground around.
+    /// What the edit does at a point within reach, to ground of a height, by these of its arcs. None if nothing. `read`:
+    /// what it has read of the ground around.
     #[inline]
-    pub(super) fn effect(&self, dir: DVec3, arcs: &Arcs<'_>, ground_m: f64, read: Option<Read>) -> Option<Effect<'_>> {
-        let place = self.place(dir, arcs)?;
-        let nearest = place.nearest;
+    pub(super) fn effect(
+        &self,
+        dir: DVec3,
+        (nearest, arcs): (&Nearest, &[u32]),
+        ground_m: f64,
+        read: Option<Read>,
+    ) -> Option<Effect<'_>> {
         let arc = &self.arcs[nearest.arc as usize];
         let radius_rad = self.radius_rad * arc.scale;
         let plain = angle_of(nearest.chord2) / radius_rad;
@@ -386,10 +370,11 @@ impl CompiledEdit {
         };
         let has_sides = matches!(self.tool, CompiledTool::Fault { .. } | CompiledTool::Coast { .. });
         let line = if has_sides {
-            Some(arc.value(&arc.foot(dir)))
-        } else if place.weight.0 > 0.0 {
-            let height_m = place.weighted_m.0 / place.weight.0;
-            Some((height_m, (place.weighted_m.1 - place.weight.1 * height_m) / place.weight.0))
+            Some(arc.value(&arc.foot(dir, nearest.inside)))
+        } else if let CompiledTool::Road { .. } = self.tool {
+            let Average { weight, weighted_m } = self.average(dir, arcs);
+            let height_m = weighted_m.0 / weight.0;
+            (weight.0 > 0.0).then(|| (height_m, (weighted_m.1 - weight.1 * height_m) / weight.0))
         } else {
             smooth
         };
@@ -426,8 +411,8 @@ impl CompiledEdit {
         let outward = match change.by_t == 0.0 {
             true => DVec3::ZERO,
             // The foot of a point on the line tells no direction.
-            false if has_sides && arc.foot(dir).inside => arc.leftward(dir) * side,
-            false => away(dir, arc.foot(dir).dir),
+            false if has_sides && nearest.inside => arc.leftward(dir) * side,
+            false => away(dir, arc.foot(dir, nearest.inside).dir),
         };
         let line_by_dir = line.map_or(DVec3::ZERO, |line| line.1) * change.by_line;
         let (line_by_dir, ground) =

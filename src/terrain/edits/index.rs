@@ -7,13 +7,12 @@ use super::roster::{Changes, Roster, number, slot_of};
 use super::widening::Widening;
 use crate::planet::Key;
 use crate::sphere::NodeId;
-use crate::sphere::cube::face_point;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::ops::Range;
 use std::sync::Arc;
 
 /// Pieces that a leaf may have before it is split.
-const LEAF: usize = 12;
+const LEAF: usize = 16;
 /// Finest level of a leaf.
 const FINEST: u8 = 18;
 /// A cell is not split if its quarters together would list more than this many times its pieces.
@@ -42,6 +41,56 @@ impl Piece {
     }
 }
 
+/// A disc, a little larger, in few bytes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Disc {
+    middle: Vec3,
+    chord: f32,
+}
+
+impl Disc {
+    /// More than positions on the unit sphere and sums of squares lose by rounding to f32.
+    const ROUNDING: f32 = 1e-6;
+
+    pub(super) fn new(middle: DVec3, chord: f64) -> Self {
+        Self { middle: middle.as_vec3(), chord: chord as f32 * (1.0 + Self::ROUNDING) + Self::ROUNDING }
+    }
+
+    /// Whether two discs may touch.
+    #[inline]
+    pub(super) fn may_touch(&self, other: &Self) -> bool {
+        let sum = self.chord + other.chord;
+        self.middle.distance_squared(other.middle) <= sum * sum
+    }
+}
+
+/// A piece in a leaf: all that tells whether it is near. Points far apart look at many leaves, and what is not in the
+/// leaf itself is not in the cache.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Listed {
+    pub(super) disc: Disc,
+    pub(super) slot: u32,
+    /// Its arcs among those of the edit; they are few.
+    first: u32,
+    count: u16,
+    /// Whether the piece acts for itself, as the places of a stamp do.
+    pub(super) is_alone: bool,
+}
+
+impl Listed {
+    fn new(number: u32, roster: &Roster) -> Option<Self> {
+        let (edit, piece) = (roster.edit(slot_of(number))?, roster.piece(number)?);
+        let disc = Disc::new(piece.middle, piece.chord);
+        let (first, count) = (piece.first, piece.count as u16);
+        Some(Self { disc, slot: slot_of(number), first, count, is_alone: edit.is_stamp() })
+    }
+
+    /// Its arcs among those of the edit.
+    pub(super) fn arcs(&self) -> Range<u32> {
+        self.first..self.first + u32::from(self.count)
+    }
+}
+
 /// Chord of an angle, a little larger, for rounding. That of half a turn and more reaches everywhere.
 pub(crate) fn chord_of(angle_rad: f64) -> f64 {
     if angle_rad >= std::f64::consts::PI {
@@ -64,17 +113,21 @@ fn disc_of(id: NodeId) -> (DVec3, f64) {
     (middle, chord2.sqrt() * MARGIN)
 }
 
-/// A cell and the pieces that touch it. Revisions share the cells that did not change.
+/// A cell and the pieces that touch it. Revisions share the cells that did not change. Points on their way to leaves
+/// read the first fields alone.
 #[derive(Debug, Default)]
-struct Cell {
+#[repr(C)]
+pub(super) struct Cell {
+    /// None for a leaf. A cell without pieces is a leaf.
+    quarters: Option<[Arc<Cell>; 4]>,
+    /// Of a leaf: its pieces.
+    listed: Vec<Listed>,
     /// Numbers of its pieces, in the order in which they act.
     list: Vec<u32>,
     /// Hash of its pieces.
     hash: u128,
     /// What its pieces do to the bounds of heights: of a leaf in order, else the widest of the quarters.
     range: Widening,
-    /// None for a leaf.
-    quarters: Option<[Arc<Cell>; 4]>,
 }
 
 /// The quadtree: the cells of the six faces.
@@ -140,6 +193,11 @@ impl Index {
         Self { faces }
     }
 
+    /// The cell of a face.
+    pub(super) fn face(&self, face: usize) -> &Cell {
+        &self.faces[face]
+    }
+
     /// Whether it lists no piece.
     pub(super) fn is_empty(&self) -> bool {
         self.faces.iter().all(|face| face.list.is_empty())
@@ -190,12 +248,22 @@ impl Index {
 }
 
 impl Cell {
+    /// The pieces of a leaf, in the order in which they act.
+    pub(super) fn listed(&self) -> &[Listed] {
+        &self.listed
+    }
+
+    /// Its quarters: `s` grows first, then `t`. None for a leaf.
+    pub(super) fn quarters(&self) -> Option<&[Arc<Self>; 4]> {
+        self.quarters.as_ref()
+    }
+
     /// The cell of a node with these pieces, split as far as that pays.
     fn new(id: NodeId, list: Vec<u32>, roster: &Roster) -> Arc<Self> {
         let hash = hash(&list, roster);
         let mut cell = Self { list, hash, ..Self::default() };
         cell.split(id, roster);
-        Arc::new(cell.with_range(roster))
+        Arc::new(cell.finished(roster))
     }
 
     fn split(&mut self, id: NodeId, roster: &Roster) {
@@ -236,15 +304,17 @@ impl Cell {
             }
             _ => next.split(id, change.roster),
         }
-        Arc::new(next.with_range(change.roster))
+        Arc::new(next.finished(change.roster))
     }
 
-    fn with_range(self, roster: &Roster) -> Self {
-        let range = match &self.quarters {
-            Some(quarters) => quarters.iter().map(|quarter| quarter.range).fold(Widening::default(), Widening::or),
-            None => range_of(&self.list, roster, |_| true),
-        };
-        Self { range, ..self }
+    /// With what follows from its list and its quarters.
+    fn finished(self, roster: &Roster) -> Self {
+        if let Some(quarters) = &self.quarters {
+            let range = quarters.iter().map(|quarter| quarter.range).fold(Widening::default(), Widening::or);
+            return Self { range, ..self };
+        }
+        let listed = self.list.iter().filter_map(|number| Listed::new(*number, roster)).collect();
+        Self { range: range_of(&self.list, roster, |_| true), listed, ..self }
     }
 }
 
@@ -280,45 +350,6 @@ fn hash(list: &[u32], roster: &Roster) -> u128 {
         last = Some(slot);
     }
     hash.0
-}
-
-/// Looks leaves up. Neighbouring points mostly lie in one leaf.
-pub(super) struct Walk<'a> {
-    index: &'a Index,
-    /// The leaf that was found last: its face, its sides, its pieces.
-    face: usize,
-    s: Range<f64>,
-    t: Range<f64>,
-    list: &'a [u32],
-}
-
-impl<'a> Walk<'a> {
-    pub(super) fn new(index: &'a Index) -> Self {
-        Walk { index, face: usize::MAX, s: 1.0..0.0, t: 1.0..0.0, list: &[] }
-    }
-
-    /// The pieces that may change the ground at a direction.
-    #[inline]
-    pub(super) fn leaf(&mut self, dir: DVec3) -> &'a [u32] {
-        let (face, s, t) = face_point(dir);
-        let face = face as usize;
-        if self.face != face || !self.s.contains(&s) || !self.t.contains(&t) {
-            self.descend(face, s, t);
-        }
-        self.list
-    }
-
-    fn descend(&mut self, face: usize, s: f64, t: f64) {
-        let (mut cell, mut low, mut width) = (&*self.index.faces[face], [-1.0, -1.0], 2.0);
-        while let Some(quarters) = &cell.quarters {
-            width *= 0.5;
-            let (right, upper) = (s >= low[0] + width, t >= low[1] + width);
-            cell = &quarters[usize::from(right) + 2 * usize::from(upper)];
-            low = [low[0] + if right { width } else { 0.0 }, low[1] + if upper { width } else { 0.0 }];
-        }
-        (self.face, self.list) = (face, &cell.list);
-        (self.s, self.t) = (low[0]..low[0] + width, low[1]..low[1] + width);
-    }
 }
 
 /// A hash of numbers.

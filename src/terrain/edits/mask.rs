@@ -1,8 +1,8 @@
 //! Masks of layers that are painted by hand: strokes lead from 0 towards 1, or back.
 
 use super::Edits;
-use super::index::Walk;
-use super::near::Near;
+use super::compiled::CompiledEdit;
+use super::near::{Hit, Near, Touch};
 use super::paint::Paint;
 use crate::planet::Key;
 use crate::sphere::NodeId;
@@ -60,24 +60,31 @@ impl Edits {
             static NEAR: RefCell<Near> = RefCell::default();
         }
         let bands = spacings_rad.len().min(MAX_BANDS);
+        // Of each point; nothing yet where no stroke is.
+        let (mut values, mut gradients) = (Vec::new(), Vec::new());
         let mut near = NEAR.take();
-        near.each_leaf(Walk::new(&self.masks), &self.roster, dirs, |points, near| {
-            for i in points.iter().map(|point| *point as usize) {
-                let (mut value, mut gradients) = (0.0, [DVec3::ZERO; MAX_BANDS]);
-                for (slot, arcs) in near.groups() {
-                    let Some(edit) = self.roster.edit(slot) else { continue };
-                    let Some(Paint::Mask { mask: of, amount }) = edit.paint().copied() else { continue };
-                    let Some(weight) = (of == mask).then(|| edit.weighted(dirs[i], &arcs)).flatten() else { continue };
-                    let (strength, share) = (amount.abs(), amount.abs() * weight.change_m);
-                    let left = if amount > 0.0 { 1.0 - value } else { -value };
-                    for (gradient, &spacing_rad) in gradients.iter_mut().zip(spacings_rad) {
-                        *gradient = *gradient * (1.0 - share) + weight.gradient(spacing_rad) * (strength * left);
-                    }
-                    value = (value + left * share).clamp(0.0, 1.0);
+        let paints =
+            |_: u32, edit: &CompiledEdit| matches!(edit.paint(), Some(Paint::Mask { mask: of, .. }) if *of == mask);
+        near.each_touch(&self.masks, &self.roster, dirs, paints, |Touch { edit, hits, .. }| {
+            let Some(Paint::Mask { amount, .. }) = edit.paint().copied() else { return };
+            values.resize(dirs.len(), None);
+            gradients.resize(dirs.len() * bands, DVec3::ZERO);
+            for Hit { point: i, nearest } in hits {
+                let value = values[*i].get_or_insert(0.0);
+                let Some(weight) = edit.weighted(dirs[*i], nearest) else { continue };
+                let (strength, share) = (amount.abs(), amount.abs() * weight.change_m);
+                let left = if amount > 0.0 { 1.0 - *value } else { -*value };
+                for (gradient, &spacing_rad) in gradients[*i * bands..][..bands].iter_mut().zip(spacings_rad) {
+                    *gradient = *gradient * (1.0 - share) + weight.gradient(spacing_rad) * (strength * left);
                 }
-                each(i, value, &gradients[..bands]);
+                *value = (*value + left * share).clamp(0.0, 1.0);
             }
         });
+        for (i, value) in values.iter().enumerate() {
+            if let Some(value) = value {
+                each(i, *value, &gradients[i * bands..][..bands]);
+            }
+        }
         NEAR.set(near);
     }
 }

@@ -15,8 +15,10 @@
 //! - `compiled`: one edit: its tool, its line, the pieces of that line
 //! - `roster`: the edits that are on, in order, from one revision to the next
 //! - `index`: which pieces are near a point, a tile or a disc
+//! - `leaves`: points by the leaves of the index that hold them
 //! - `context`: what edits that read the ground depend on
 //! - `near`: the parts of them that may act on a run of points
+//! - `nearest`: the nearest arc of an edit
 //!
 //! Edits act in order at each point. One loop over points in f64 serves queries and tiles alike, with basic operations
 //! and `libm` alone, so heights are the same bits on every machine and instruction set. A point looks only at the
@@ -26,9 +28,11 @@ mod compiled;
 mod context;
 mod gullies;
 mod index;
+mod leaves;
 mod mask;
 mod memory;
 mod near;
+mod nearest;
 mod outline;
 mod paint;
 mod path;
@@ -49,14 +53,14 @@ use crate::world::DrawnCourse;
 use compiled::CompiledEdit;
 use glam::DVec3;
 pub(crate) use index::chord_of;
-use index::{Index, Piece, Walk};
+use index::{Index, Piece};
 pub(crate) use mask::MaskId;
 pub(crate) use memory::Memory;
-use near::Arcs;
 pub(crate) use near::Near;
+use near::{Hit, Touch};
 pub(crate) use paint::Painted;
 use paint::{Paint, Places};
-use reading::{Reader, Surroundings};
+use reading::Reader;
 use roster::{Roster, slot_of};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -226,41 +230,22 @@ impl Edits {
         (ground, before): (&Ground<'_>, Option<u32>),
     ) {
         let end = before.map_or(u32::MAX, |slot| self.roster.rank_of(slot));
-        near.each_leaf(Walk::new(&self.ground), &self.roster, dirs, |points, near| {
-            let acts = |(slot, _): &(u32, Arcs<'_>)| self.roster.rank_of(*slot) < end;
-            let around = self.read(dirs, points, near.groups().filter(acts), ground);
-            for i in points.iter().map(|point| *point as usize) {
-                for (slot, arcs) in near.groups().filter(acts) {
-                    let Some(edit) = self.roster.edit(slot) else { continue };
-                    let around = around.iter().find(|(of, _)| *of == slot).map(|(_, around)| around);
-                    let around = around.zip(edit.reader.as_ref()).filter(|_| edit.reaches(dirs[i], &arcs));
-                    let read = around.and_then(|(around, reader)| reader.at(dirs[i], around));
-                    let Some(effect) = edit.effect(dirs[i], &arcs, heights.height_m[i], read) else { continue };
-                    heights.height_m[i] = (heights.height_m[i] + effect.change_m).clamp(limits_m.0, limits_m.1);
-                    for (gradient, &spacing_rad) in heights.gradients.iter_mut().zip(spacings_rad) {
-                        let before = components(gradient, i);
-                        set_components(gradient, i, before * effect.by_ground + effect.gradient(spacing_rad));
-                    }
+        let acts = |slot: u32, _: &CompiledEdit| self.roster.rank_of(slot) < end;
+        near.each_touch(&self.ground, &self.roster, dirs, acts, |Touch { slot, edit, arcs, hits }| {
+            let reader = edit.reader.as_ref();
+            let around =
+                reader.map(|reader| (reader, reader.read(slot, hits.iter().map(|hit| dirs[hit.point]), ground)));
+            for Hit { point: i, nearest } in hits {
+                let (i, dir) = (*i, dirs[*i]);
+                let read = around.as_ref().and_then(|(reader, around)| reader.at(dir, around));
+                let Some(effect) = edit.effect(dir, (nearest, arcs), heights.height_m[i], read) else { continue };
+                heights.height_m[i] = (heights.height_m[i] + effect.change_m).clamp(limits_m.0, limits_m.1);
+                for (gradient, &spacing_rad) in heights.gradients.iter_mut().zip(spacings_rad) {
+                    let before = components(gradient, i);
+                    set_components(gradient, i, before * effect.by_ground + effect.gradient(spacing_rad));
                 }
             }
         });
-    }
-
-    /// What edits that read the ground need at points, edit by edit.
-    fn read<'a>(
-        &self,
-        dirs: &[DVec3],
-        points: &[u32],
-        groups: impl Iterator<Item = (u32, Arcs<'a>)>,
-        ground: &Ground<'_>,
-    ) -> Vec<(u32, Surroundings)> {
-        let reading = groups.filter_map(|(slot, arcs)| {
-            let edit = self.roster.edit(slot)?;
-            let reader = edit.reader.as_ref()?;
-            let own = points.iter().filter_map(|point| dirs.get(*point as usize).copied());
-            Some((slot, reader.read(slot, own.filter(|dir| edit.reaches(*dir, &arcs)), ground)))
-        });
-        reading.collect()
     }
 
     /// The paint of the climate at points; nothing if there is none at any.
@@ -269,39 +254,43 @@ impl Edits {
         if self.climate.is_empty() {
             return;
         }
-        near.each_leaf(Walk::new(&self.climate), &self.roster, dirs, |points, near| {
-            for i in points.iter().map(|point| *point as usize) {
-                for (slot, arcs) in near.groups() {
-                    let Some(edit) = self.roster.edit(slot) else { continue };
-                    let (Some(paint), weight) = (edit.paint(), edit.weight(dirs[i], &arcs)) else { continue };
+        near.each_touch(
+            &self.climate,
+            &self.roster,
+            dirs,
+            |_, _| true,
+            |Touch { edit, hits, .. }| {
+                let Some(paint) = edit.paint() else { return };
+                for Hit { point: i, nearest } in hits {
+                    let weight = edit.weight(dirs[*i], nearest);
                     if weight > 0.0 {
                         painted.resize(dirs.len(), Painted::NONE);
-                        paint.apply(&mut painted[i], weight, |key| self.places.of(key));
+                        paint.apply(&mut painted[*i], weight, |key| self.places.of(key));
                     }
                 }
-            }
-        });
+            },
+        );
     }
 
     /// By how much paint changes the log-odds of the cover of clouds at points: calls `each` with the number of a point
     /// and the change.
     pub(crate) fn clouded(&self, dirs: &[DVec3], near: &mut Near, mut each: impl FnMut(usize, f64)) {
-        near.each_leaf(Walk::new(&self.clouds), &self.roster, dirs, |points, near| {
-            for i in points.iter().map(|point| *point as usize) {
-                for (slot, arcs) in near.groups() {
-                    let Some(edit) = self.roster.edit(slot) else { continue };
-                    if let Some(Paint::Clouds { odds }) = edit.paint() {
-                        each(i, odds * edit.weight(dirs[i], &arcs));
-                    }
+        near.each_touch(
+            &self.clouds,
+            &self.roster,
+            dirs,
+            |_, _| true,
+            |Touch { edit, hits, .. }| {
+                if let Some(Paint::Clouds { odds }) = edit.paint() {
+                    hits.iter().for_each(|hit| each(hit.point, odds * edit.weight(dirs[hit.point], &hit.nearest)));
                 }
-            }
-        });
+            },
+        );
     }
 
     /// Whether paint of the climate may be at one of these points.
-    pub(crate) fn may_paint(&self, dirs: &[DVec3]) -> bool {
-        let mut walk = Walk::new(&self.climate);
-        !self.climate.is_empty() && dirs.iter().any(|dir| !walk.leaf(*dir).is_empty())
+    pub(crate) fn may_paint(&self, dirs: &[DVec3], near: &mut Near) -> bool {
+        !self.climate.is_empty() && near.holds_any(&self.climate, dirs)
     }
 
     /// How far from a place the ground lies, as an angle, that decides about the ground within an angle of it: farther

@@ -1,48 +1,59 @@
 //! What is near some points: the arcs of each edit that may act there. All others are farther from every one of the
 //! points than they reach, so that leaving them out changes no result.
 
-use super::index::{Walk, may_touch};
-use super::roster::{Roster, slot_of};
+use super::compiled::CompiledEdit;
+use super::index::{Cell, Disc, Index};
+use super::leaves::Sinking;
+use super::nearest::{Nearest, Search};
+use super::roster::Roster;
 use glam::DVec3;
 use std::ops::Range;
 
 /// Fewer points take all arcs of the pieces that are near.
-const LEAST_POINTS: usize = 4;
+const LEAST_POINTS: usize = 8;
 
-/// The arcs of one edit, piece by piece.
+/// The arcs of one edit.
 #[derive(Clone, Debug)]
 struct Group {
     slot: u32,
-    /// Of the list of spans.
-    spans: Range<u32>,
-}
-
-/// The arcs of one piece that are near, and its disc.
-#[derive(Clone, Debug)]
-struct Span {
-    middle: DVec3,
-    chord2: f64,
     /// Of the list of arcs.
     arcs: Range<u32>,
+}
+
+/// A point within reach of an edit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    /// Its number among the points.
+    pub(super) point: usize,
+    pub(super) nearest: Nearest,
+}
+
+/// An edit near some points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch<'a> {
+    pub(super) slot: u32,
+    pub(super) edit: &'a CompiledEdit,
+    /// Those of its arcs that may act, by their places.
+    pub(super) arcs: &'a [u32],
+    /// The points within its reach; at least one.
+    pub(super) hits: &'a [Hit],
 }
 
 /// The arcs near some points, edit by edit. The memory is used again.
 #[derive(Debug, Default)]
 pub(crate) struct Near {
     groups: Vec<Group>,
-    spans: Vec<Span>,
     /// Arcs by their places in their edits.
     arcs: Vec<u32>,
-    /// Points with the addresses of the lists of their leaves; the points of one leaf.
-    points: Vec<(usize, u32)>,
-    own: Vec<u32>,
+    sinking: Sinking,
+    search: Search,
+    hits: Vec<Hit>,
 }
 
 impl Near {
     /// Looks at the pieces of a leaf of the index, near some points.
-    fn refill(&mut self, list: &[u32], roster: &Roster, dirs: &[DVec3], points: &[u32]) {
+    fn refill(&mut self, leaf: &Cell, roster: &Roster, dirs: &[DVec3], points: &[u32]) {
         self.groups.clear();
-        self.spans.clear();
         self.arcs.clear();
         let own = || points.iter().filter_map(|point| dirs.get(*point as usize));
         let Some(&first) = own().next() else { return };
@@ -50,87 +61,64 @@ impl Near {
         let chord2 = own().map(|dir| dir.distance_squared(middle)).fold(0.0, f64::max);
         let chord = chord2.sqrt() * (1.0 + 1e-9);
         let mut last = None;
-        for &number in list {
-            let slot = slot_of(number);
-            let (Some(piece), Some(edit)) = (roster.piece(number), roster.edit(slot)) else { continue };
-            if !may_touch((piece.middle, piece.chord), (middle, chord)) {
-                continue;
-            }
-            let before = self.arcs.len() as u32;
-            let all = piece.first..piece.first + piece.count;
+        let disc = Disc::new(middle, chord);
+        for piece in leaf.listed().iter().filter(|piece| piece.disc.may_touch(&disc)) {
+            let (slot, before) = (piece.slot, self.arcs.len() as u32);
             if points.len() < LEAST_POINTS {
-                self.arcs.extend(all);
-            } else {
-                self.arcs.extend(all.filter(|arc| edit.may_reach(*arc, middle, chord)));
+                self.arcs.extend(piece.arcs());
+            } else if let Some(edit) = roster.edit(slot) {
+                self.arcs.extend(piece.arcs().filter(|arc| edit.may_reach(*arc, middle, chord)));
             }
-            let arcs = before..self.arcs.len() as u32;
-            if arcs.is_empty() {
+            let end = self.arcs.len() as u32;
+            if end == before {
                 continue;
             }
-            self.spans.push(Span { middle: piece.middle, chord2: piece.chord * piece.chord, arcs });
-            let end = self.spans.len() as u32;
-            match self.groups.last_mut().filter(|_| last == Some(slot) && !edit.is_stamp()) {
-                Some(group) => group.spans.end = end,
-                None => self.groups.push(Group { slot, spans: end - 1..end }),
+            match self.groups.last_mut().filter(|_| last == Some(slot) && !piece.is_alone) {
+                Some(group) => group.arcs.end = end,
+                None => self.groups.push(Group { slot, arcs: before..end }),
             }
             last = Some(slot);
         }
     }
 
-    /// The edits near, in order, by their slots, each with its arcs. A stamp comes once for each place.
-    pub(super) fn groups(&self) -> impl Iterator<Item = (u32, Arcs<'_>)> {
-        let spans = |group: &Group| &self.spans[group.spans.start as usize..group.spans.end as usize];
-        self.groups.iter().map(move |group| (group.slot, Arcs { spans: spans(group), arcs: &self.arcs }))
-    }
-
-    /// Calls `each` with the points of each leaf that has pieces, by their numbers, and with what is near them.
-    pub(super) fn each_leaf(
+    /// Calls `each` with the edits that reach some of the points. Those that reach one point come in the order in which
+    /// they act; a stamp comes once for each place. `wanted`: which edits count, by slot.
+    pub(super) fn each_touch(
         &mut self,
-        mut walk: Walk<'_>,
+        index: &Index,
         roster: &Roster,
         dirs: &[DVec3],
-        mut each: impl FnMut(&[u32], &Self),
+        wanted: impl Fn(u32, &CompiledEdit) -> bool,
+        mut each: impl FnMut(Touch<'_>),
     ) {
-        let mut points = std::mem::take(&mut self.points);
-        points.clear();
-        for (point, dir) in dirs.iter().enumerate() {
-            let list = walk.leaf(*dir);
-            if !list.is_empty() {
-                points.push((list.as_ptr() as usize, point as u32));
+        let mut sinking = std::mem::take(&mut self.sinking);
+        sinking.each_leaf(index, dirs, |leaf, points| {
+            self.refill(leaf, roster, dirs, points);
+            if self.groups.is_empty() {
+                return;
             }
-        }
-        // Rows of a tile go through the same few leaves again and again. The order of leaves changes no result.
-        if points.iter().any(|point| point.0 != points[0].0) {
-            points.sort_unstable();
-        }
-        for own in points.chunk_by(|a, b| a.0 == b.0) {
-            let Some(&dir) = own.first().and_then(|(_, point)| dirs.get(*point as usize)) else { continue };
-            let list = walk.leaf(dir);
-            let mut numbers = std::mem::take(&mut self.own);
-            numbers.clear();
-            numbers.extend(own.iter().map(|(_, point)| *point));
-            self.refill(list, roster, dirs, &numbers);
-            if !self.groups.is_empty() {
-                each(&numbers, self);
+            let Self { groups, arcs, search, hits, .. } = self;
+            search.refill(points.iter().filter_map(|point| dirs.get(*point as usize).copied()));
+            for Group { slot, arcs: own } in &*groups {
+                let Some(edit) = roster.edit(*slot).filter(|edit| wanted(*slot, edit)) else { continue };
+                let Some(arcs) = arcs.get(own.start as usize..own.end as usize) else { continue };
+                hits.clear();
+                let reach_chord2 = edit.reach_chord2();
+                let found = search.find((edit.arcs(), arcs), reach_chord2);
+                let found = found.filter(|(_, nearest)| nearest.chord2 <= reach_chord2);
+                hits.extend(found.map(|(own, nearest)| Hit { point: points[own] as usize, nearest }));
+                if !hits.is_empty() {
+                    each(Touch { slot: *slot, edit, arcs, hits });
+                }
             }
-            self.own = numbers;
-        }
-        self.points = points;
+        });
+        self.sinking = sinking;
     }
-}
 
-/// The arcs of an edit near some points.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Arcs<'a> {
-    spans: &'a [Span],
-    arcs: &'a [u32],
-}
-
-impl Arcs<'_> {
-    /// Those of the pieces that hold a direction.
-    #[inline]
-    pub(super) fn at(&self, dir: DVec3) -> impl Iterator<Item = u32> {
-        let holding = self.spans.iter().filter(move |span| span.middle.distance_squared(dir) <= span.chord2);
-        holding.flat_map(|span| &self.arcs[span.arcs.start as usize..span.arcs.end as usize]).copied()
+    /// Whether a leaf that has pieces holds one of these points.
+    pub(super) fn holds_any(&mut self, index: &Index, dirs: &[DVec3]) -> bool {
+        let mut holds = false;
+        self.sinking.each_leaf(index, dirs, |_, _| holds = true);
+        holds
     }
 }

@@ -18,8 +18,6 @@ pub(super) struct Arc {
     pub(super) b: DVec3,
     /// The normal of its plane; zero for a single place.
     normal: DVec3,
-    /// The directions of the arc at its ends.
-    tangents: [DVec3; 2],
     /// At its ends: heights of a road, the slip of a fault, the share of a coast.
     pub(super) values: [f64; 2],
     /// Size of a stamp's copy relative to the stamp.
@@ -44,14 +42,14 @@ impl Arc {
         let normal = a.cross(b - a);
         let length = normal.length();
         let normal = if length > 0.0 { normal / length } else { DVec3::ZERO };
-        Self { a, b, normal, tangents: [normal.cross(a), normal.cross(b)], values, scale: 1.0, turned: 0.0 }
+        Self { a, b, normal, values, scale: 1.0, turned: 0.0 }
     }
 
-    /// Squared chord to the nearest place, and whether that lies between the ends.
+    /// The nearest place to a unit direction: its squared chord, and whether it lies between the ends.
     #[inline]
     pub(super) fn chord2(&self, dir: DVec3) -> (f64, bool) {
         let from_a = dir - self.a;
-        if from_a.dot(self.tangents[0]) > 0.0 && (dir - self.b).dot(self.tangents[1]) < 0.0 {
+        if self.is_beside(dir, from_a, self.tangents()) {
             // The sine of the angle to the plane, and its chord without cancellation.
             let off = from_a.dot(self.normal);
             let off2 = off * off;
@@ -60,9 +58,30 @@ impl Arc {
         (from_a.length_squared().min(dir.distance_squared(self.b)), false)
     }
 
-    /// The nearest place to a unit direction.
-    pub(super) fn foot(&self, dir: DVec3) -> Foot {
-        let (_, inside) = self.chord2(dir);
+    /// The order by distance of the nearest place (see [`order_of`]), without branches, roots and divisions.
+    /// `tangents`: those of this arc.
+    #[inline(always)]
+    pub(super) fn order(&self, dir: DVec3, tangents: [DVec3; 2]) -> f64 {
+        let from_a = dir - self.a;
+        let off = from_a.dot(self.normal);
+        let end = from_a.length_squared().min(dir.distance_squared(self.b));
+        if self.is_beside(dir, from_a, tangents) { off * off } else { order_of(end) }
+    }
+
+    /// The directions of the arc at its ends.
+    #[inline(always)]
+    pub(super) fn tangents(&self) -> [DVec3; 2] {
+        [self.normal.cross(self.a), self.normal.cross(self.b)]
+    }
+
+    /// Whether the nearest place lies between the ends.
+    #[inline(always)]
+    fn is_beside(&self, dir: DVec3, from_a: DVec3, tangents: [DVec3; 2]) -> bool {
+        (from_a.dot(tangents[0]) > 0.0) & ((dir - self.b).dot(tangents[1]) < 0.0)
+    }
+
+    /// The nearest place to a unit direction. `inside`: whether it lies between the ends.
+    pub(super) fn foot(&self, dir: DVec3, inside: bool) -> Foot {
         if inside {
             let foot = (dir - self.normal * (dir - self.a).dot(self.normal)).normalize();
             let along = ((foot - self.a).length() / (self.b - self.a).length()).min(1.0);
@@ -99,6 +118,12 @@ impl Arc {
     fn length_rad(&self) -> f64 {
         angle_of((self.b - self.a).length_squared())
     }
+}
+
+/// A number that grows with the distance, by the squared chord: the squared sine up to a right angle.
+#[inline(always)]
+pub(super) fn order_of(chord2: f64) -> f64 {
+    if chord2 < 2.0 { chord2 * (1.0 - 0.25 * chord2) } else { chord2 - 1.0 }
 }
 
 /// The angle of a chord by its squared length.

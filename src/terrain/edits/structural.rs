@@ -1,8 +1,8 @@
 //! Edits that change what a structure is solved from: paint of uplift, of rock and of rain, and courses of rivers.
 
 use super::Edits;
-use super::index::Walk;
-use super::near::Near;
+use super::compiled::CompiledEdit;
+use super::near::{Hit, Near, Touch};
 use super::roster::Roster;
 use crate::planet::edits::{EditPoint, RiverCourse};
 use crate::planet::{Key, Tool};
@@ -45,18 +45,15 @@ impl Edits {
         let chunks = uplift_m.par_chunks_mut(CHUNK).zip(hardness.par_chunks_mut(CHUNK));
         let chunks = chunks.zip(rain_mm.par_chunks_mut(CHUNK)).zip(dirs.par_chunks(CHUNK));
         chunks.for_each(|(((uplift_m, hardness), rain_mm), dirs)| {
-            Near::default().each_leaf(Walk::new(&self.structural), &self.roster, dirs, |points, near| {
-                for i in points.iter().map(|point| *point as usize) {
-                    for (slot, arcs) in near.groups() {
-                        let Some(edit) = self.roster.edit(slot) else { continue };
-                        let (Some(paint), weight) = (edit.structure_paint(), edit.weight(dirs[i], &arcs)) else {
-                            continue;
-                        };
-                        match paint {
-                            StructurePaint::Uplift { uplift_m: by_m } => uplift_m[i] += by_m * weight,
-                            StructurePaint::Rock { hardness: by } => hardness[i] += by * weight,
-                            StructurePaint::Rain { rain_mm: by_mm } => rain_mm[i] += by_mm * weight,
-                        }
+            let all = |_: u32, _: &CompiledEdit| true;
+            Near::default().each_touch(&self.structural, &self.roster, dirs, all, |Touch { edit, hits, .. }| {
+                let Some(paint) = edit.structure_paint() else { return };
+                for Hit { point: i, nearest } in hits {
+                    let (i, weight) = (*i, edit.weight(dirs[*i], nearest));
+                    match paint {
+                        StructurePaint::Uplift { uplift_m: by_m } => uplift_m[i] += by_m * weight,
+                        StructurePaint::Rock { hardness: by } => hardness[i] += by * weight,
+                        StructurePaint::Rain { rain_mm: by_mm } => rain_mm[i] += by_mm * weight,
                     }
                 }
             });
