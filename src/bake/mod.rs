@@ -15,8 +15,10 @@
 //! - `strips`: computes and keeps strips; `rows`: reads a map from them
 //! - `png`, `openexr`, `geotiff`, `ktx2`, `raw`: encoders; `sidecar`: the JSON beside a map
 //! - `mesh`: meshes with textures
+//! - `edits`: ground edits as a height picture
 //! - `preview`: a small picture of a map; `progress`, `error`
 
+mod edits;
 mod error;
 mod format;
 mod geotiff;
@@ -38,6 +40,7 @@ mod strips;
 #[cfg(test)]
 mod tests;
 
+pub use edits::{BakedEdits, Deviation, EditBake};
 pub use error::BakeError;
 pub use format::Format;
 #[cfg(feature = "editor")]

@@ -22,6 +22,7 @@ use super::state::bake_settings::BakeSettings;
 use super::state::device::DeviceWatch;
 use super::state::document::Document;
 use super::state::pictures::Pictures;
+use super::state::edit_baking::EditBaking;
 use super::state::questions::Questions;
 use super::state::recovery::Recovery;
 use super::state::shooting::PhotoSettings;
@@ -55,6 +56,8 @@ use std::time::Instant;
 /// The keys under which eframe keeps between runs whether the tabs are shown, and where they stand.
 const SHOWN_KEY: &str = "tellus_layout";
 const LAYOUT_KEY: &str = "tellus_docks";
+/// The key of the panes.
+const PANES_KEY: &str = "tellus_panes";
 /// The key of what was used lately in the finder.
 const USED_KEY: &str = "tellus_finder";
 /// The key that is there once the editor has run: the tour begins by itself where it is not.
@@ -107,6 +110,7 @@ impl EditorApp {
         state.shows.panel = stored(SHOWN_KEY).as_deref() != Some("hidden");
         state.shows.tour = cc.storage.is_some() && stored(TOURED_KEY).is_none() && path.is_none();
         let layout = stored(LAYOUT_KEY).and_then(|text| Layout::from_text(&text)).unwrap_or_default();
+        state.viewport.restore_panes(&stored(PANES_KEY).unwrap_or_default());
         state.adapter = cc.wgpu_render_state.as_ref().map_or_else(String::new, |state| {
             let info = state.adapter.get_info();
             format!("{} ({:?}, {:?})", info.name, info.device_type, info.backend)
@@ -299,6 +303,7 @@ impl EditorApp {
         let curves = CurveView::new(self.curve_inputs.found());
         let (altitude_m, eye) = state.viewport.eye(&planet);
         panels.sculpt.note_altitude(altitude_m);
+        panels.sculpt.note_baking(state.edit_baking.as_ref().map(EditBaking::done));
         let mut bench = Bench {
             before: state.document.planet(),
             label: None,
@@ -413,6 +418,7 @@ impl eframe::App for EditorApp {
         open_file::poll(state, ctx);
         shooting::poll(state);
         baking::poll(state, ctx);
+        handlers::edit_baking::poll(state);
         handlers::system::poll(state, ctx);
         handlers::device::poll(state);
         state.doing.note_file(state.document.path());
@@ -482,5 +488,6 @@ impl eframe::App for EditorApp {
         storage.set_string(TOURED_KEY, "yes".to_owned());
         storage.set_string(LAYOUT_KEY, self.panels.layout.to_text());
         storage.set_string(USED_KEY, self.finder.used());
+        storage.set_string(PANES_KEY, self.state.viewport.panes_text());
     }
 }

@@ -204,6 +204,8 @@ pub enum SculptAction {
         /// Its mask.
         mask: usize,
     },
+    /// Select the edit of this index.
+    Select(usize),
     /// Put the tool down, or take it again.
     PutDown,
     /// Measure with drags and clicks, or stop.
@@ -364,6 +366,10 @@ pub enum BakeAction {
     Ask,
     /// Stop the bake that is under way.
     Cancel,
+    /// Bake the ground edits of these indices into a height picture.
+    Edits(Vec<usize>),
+    /// Stop that.
+    CancelEdits,
 }
 
 /// An action on the bookmark of an index.

@@ -228,13 +228,21 @@ fn points(index: usize, edit: &GroundEdit, found: &mut Found) {
         }
     }
     if edit.tool.is_stamp() {
-        let all = points.len() * edit.copies as usize;
+        let around = points.len() * edit.image_count();
+        let all = around * edit.copies as usize;
         if all > MAX_ALL_COPIES {
-            let most = MAX_ALL_COPIES / points.len().max(1);
-            let message = format!("{all} copies around {} points are too many; use at most {most}", points.len());
+            let most = MAX_ALL_COPIES / around.max(1);
+            let message = format!("{all} copies around {around} points are too many; use at most {most}");
             found.add(edits::edit_path(index).join("copies"), message);
         }
         return;
+    }
+    let most = edit.most_points();
+    if points.len() > most && points.len() <= MAX_EDIT_POINTS {
+        let (images, count) = (edit.image_count(), points.len());
+        let message =
+            format!("{images} images of {count} points are too many; use fewer images, or at most {most} points");
+        found.add(edits::edit_path(index).join("turns"), message);
     }
     let is_far = |[a, b]: [&EditPoint; 2]| a.direction().dot(b.direction()) < LEAST_COSINE;
     let turned_deg = |a: f64, b: f64| (a - b).abs();
@@ -256,7 +264,7 @@ fn courses(planet: &Planet, found: &mut Found) {
     let length = |edit: &GroundEdit| -> f64 {
         edit.points.0.windows(2).map(|pair| pair[0].direction().angle_between(pair[1].direction())).sum()
     };
-    let radii: f64 = rivers.map(length).sum();
+    let radii: f64 = rivers.map(|edit| length(edit) * edit.image_count() as f64).sum();
     if radii > MOST_COURSES_RADII {
         let message = format!(
             "the courses of its rivers are {radii:.0} radii of the planet long in all; use at most {MOST_COURSES_RADII}"

@@ -303,6 +303,18 @@ impl Terrain {
         painted
     }
 
+    /// Whether edits of the ground reach each of some points.
+    #[cfg(feature = "bake")]
+    pub(crate) fn edited(&self, dirs: &[DVec3]) -> Vec<bool> {
+        self.edits.as_ref().map_or_else(|| vec![false; dirs.len()], |edits| edits.reached(dirs))
+    }
+
+    /// A disc that holds all ground that edits reach: its middle and its angle. None if there is none.
+    #[cfg(feature = "bake")]
+    pub(crate) fn edited_disc(&self) -> Option<(DVec3, f64)> {
+        self.edits.as_ref()?.disc()
+    }
+
     /// The rules of the climate.
     pub(crate) fn climate_rules(&self) -> &Rules {
         &self.rules

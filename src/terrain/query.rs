@@ -151,7 +151,7 @@ impl Terrain {
     }
 
     /// As [`Terrain::heights_m`], without valleys of a structure that points `spacing_rad` apart would not show.
-    pub(super) fn heights_spaced_m(&self, dirs_planet: &[DVec3], spacing_rad: f64) -> Vec<f64> {
+    pub(crate) fn heights_spaced_m(&self, dirs_planet: &[DVec3], spacing_rad: f64) -> Vec<f64> {
         let mut heights_m = vec![0.0; dirs_planet.len()];
         let tasks = heights_m.par_chunks_mut(TASK).zip(dirs_planet.par_chunks(TASK));
         tasks.for_each(|(heights_m, dirs)| {

@@ -1,6 +1,6 @@
 //! Tests of the command line, run as a process, of the README's promises, and of the repository's own rules.
 //!
-//! - `bake`: maps against `tellus sample`; `decode`: readers of their files
+//! - `bake`: maps against `tellus sample`; `decode`: readers of their files; `baked_edits`: ground edits as a picture
 //! - `commands`: answers, messages, exit status
 //! - `disk`: disks that are full or read-only
 //! - `readback`: every map, format and projection
@@ -13,6 +13,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 mod bake;
+mod baked_edits;
 mod commands;
 mod decode;
 #[cfg(target_os = "linux")]

@@ -124,3 +124,22 @@ fn views_of_their_own_keep_their_distance_in_radii_when_the_radius_changes() {
         assert!((after / before - 1.0).abs() < 0.01, "view {place}: {before} radii, then {after}");
     }
 }
+
+#[test]
+fn panes_are_there_again_at_the_next_start() {
+    let mut harness = with_views(PaneLayout::Four);
+    click(&mut harness, "View 3 linked");
+    click(&mut harness, "View 2 shows: Height");
+    click(&mut harness, "Slope");
+    let (before, kept) = (shows(&harness), harness.state().viewport().panes_text());
+    let mut next = app::open_stored([1400.0, 800.0], "tellus_panes", kept.clone());
+    wait_for_picture(&mut next);
+    assert_eq!(shows(&next), before);
+    assert_eq!(next.state().viewport().panes_text(), kept);
+    assert!(kept.contains("\t-Biome") && kept.contains("\t+Slope"), "{kept}");
+    // The tools are in the same pane, and work.
+    assert_eq!(next.state().viewport().active_pane(), harness.state().viewport().active_pane());
+    // What is broken opens one view.
+    let next = app::open_stored([1400.0, 800.0], "tellus_panes", kept.replace("Slope", "Slop"));
+    assert_eq!(shows(&next).len(), 1);
+}

@@ -90,6 +90,38 @@ pub fn open_after_loss(recovery: &Path) -> Editor {
     })
 }
 
+/// An editor with a picture that has run before, and kept this text under a key.
+pub fn open_stored(size: [f32; 2], key: &'static str, text: String) -> Editor {
+    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / 8.0);
+    let builder = builder.with_pixels_per_point(COARSE).renderer(WgpuTestRenderer::from_render_state(render_state()));
+    start(builder, move |cc| {
+        // The context borrows it for as long as the editor may run.
+        cc.storage = Some(Box::leak(Box::new(Stored { key, text })));
+        EditorApp::with_planet(cc, layered(), None, None).with_dialogs(Box::new(NoDialogs))
+    })
+}
+
+/// What eframe keeps between runs: one text, and that the editor has run.
+struct Stored {
+    key: &'static str,
+    text: String,
+}
+
+impl eframe::Storage for Stored {
+    fn get_string(&self, key: &str) -> Option<String> {
+        match key {
+            "tellus_toured" => Some("yes".to_owned()),
+            _ => (key == self.key).then(|| self.text.clone()),
+        }
+    }
+
+    fn set_string(&mut self, _: &str, _: String) {}
+
+    fn remove_string(&mut self, _: &str) {}
+
+    fn flush(&mut self) {}
+}
+
 fn scripted(answers: Vec<Option<PathBuf>>) -> impl FnOnce(&mut eframe::CreationContext<'_>) -> EditorApp {
     move |cc| EditorApp::with_planet(cc, layered(), None, None).with_dialogs(Box::new(ScriptedDialogs::new(answers)))
 }

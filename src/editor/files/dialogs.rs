@@ -41,6 +41,13 @@ pub enum DialogRequest {
         /// Proposed file name.
         file_name: String,
     },
+    /// A file to write the picture of ground edits to.
+    BakedEdits {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+        /// Proposed file name.
+        file_name: String,
+    },
     /// A file to write a mesh to.
     Mesh {
         /// Folder to begin in.
@@ -80,6 +87,7 @@ impl DialogRequest {
             DialogRequest::ImportTable { .. } => "Import biome table",
             DialogRequest::ExportTable { .. } => "Export biome table",
             DialogRequest::Photograph { .. } => "Save picture",
+            DialogRequest::BakedEdits { .. } => "Bake edits into a height picture",
             DialogRequest::Mesh { .. } => "Save mesh",
             DialogRequest::Folder { .. } => "Choose a folder to bake into",
             DialogRequest::SaveAs { .. } => "Save planet",
@@ -94,6 +102,7 @@ impl DialogRequest {
             DialogRequest::SaveSystem { .. } => ("Systems", &["ron"]),
             DialogRequest::Picture { .. } | DialogRequest::Photograph { .. } => ("Pictures", &["png", "exr"]),
             DialogRequest::ImportTable { .. } | DialogRequest::ExportTable { .. } => ("Pictures", &["png"]),
+            DialogRequest::BakedEdits { .. } => ("OpenEXR pictures", &["exr"]),
             DialogRequest::Mesh { .. } => ("Meshes", &["glb", "obj"]),
             DialogRequest::Folder { .. } => ("Folders", &[]),
         }
@@ -112,6 +121,7 @@ impl DialogRequest {
             | DialogRequest::ImportTable { folder }
             | DialogRequest::ExportTable { folder, .. }
             | DialogRequest::Photograph { folder, .. }
+            | DialogRequest::BakedEdits { folder, .. }
             | DialogRequest::Mesh { folder, .. }
             | DialogRequest::Folder { folder, .. }
             | DialogRequest::SaveSystem { folder, .. }
@@ -124,6 +134,7 @@ impl DialogRequest {
         match self {
             DialogRequest::ExportTable { file_name, .. }
             | DialogRequest::Photograph { file_name, .. }
+            | DialogRequest::BakedEdits { file_name, .. }
             | DialogRequest::Mesh { file_name, .. }
             | DialogRequest::Folder { file_name, .. }
             | DialogRequest::SaveSystem { file_name, .. }

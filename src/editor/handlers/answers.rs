@@ -1,6 +1,6 @@
 //! Answers to questions about files, and the window's close button.
 
-use super::{baking, biome_table, opening, pictures, saving, shooting, system};
+use super::{baking, biome_table, edit_baking, opening, pictures, saving, shooting, system};
 use crate::editor::command::{Action, ChangeAnswer, Command, Commands, ReplaceAnswer, UnsavedAnswer};
 use crate::editor::files::disk::TheirFile;
 use crate::editor::state::State;
@@ -33,6 +33,7 @@ fn chosen(state: &mut State, ctx: &egui::Context, asking: Asking, file: PathBuf,
         Asking::Picture(path) => pictures::choose(state, &path, &file),
         Asking::ImportTable => biome_table::import(state, &file),
         Asking::ExportTable => biome_table::export_chosen(state, &file, agreed),
+        Asking::BakedEdits(edits) => edit_baking::chosen(state, ctx, edits, &file, agreed),
         Asking::Baked(product) => baking::chosen(state, ctx, product, &file, agreed),
         Asking::SaveSystem => system::save_chosen(state, ctx, &file, agreed),
         Asking::Body(parent) => system::add_file(state, parent, &file),
@@ -71,6 +72,7 @@ pub fn replace(state: &mut State, ctx: &egui::Context, answer: ReplaceAnswer) {
         (ReplaceAnswer::Replace, Replace::Table(path)) => biome_table::export(state, &path),
         (ReplaceAnswer::Replace, Replace::System(path)) => system::write(state, ctx, &path),
         (ReplaceAnswer::Replace, Replace::Mesh(path)) => baking::start(state, ctx, Product::Mesh, &path),
+        (ReplaceAnswer::Replace, Replace::BakedEdits { edits, path }) => edit_baking::start(state, ctx, edits, &path),
         (ReplaceAnswer::Replace, Replace::Photograph { subject, path, .. }) => {
             shooting::start(state, ctx, subject, &path);
         }
@@ -78,6 +80,7 @@ pub fn replace(state: &mut State, ctx: &egui::Context, answer: ReplaceAnswer) {
         (ReplaceAnswer::OtherName, Replace::Table(_)) => biome_table::ask_for_export(state, ctx),
         (ReplaceAnswer::OtherName, Replace::System(_)) => system::save_as(state, ctx),
         (ReplaceAnswer::OtherName, Replace::Mesh(_)) => baking::ask(state, ctx),
+        (ReplaceAnswer::OtherName, Replace::BakedEdits { edits, .. }) => edit_baking::ask(state, ctx, edits),
         (ReplaceAnswer::OtherName, Replace::Photograph { subject, .. }) => shooting::ask(state, ctx, subject),
         (ReplaceAnswer::Cancel, _) => state.questions.after_save = None,
     }

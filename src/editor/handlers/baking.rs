@@ -1,5 +1,6 @@
 //! Maps, meshes and tiles for other programs: asks for a folder or a file, and bakes in the background.
 
+use super::edit_baking;
 use crate::bake::mesh::MeshFormat;
 use crate::bake::{Bake, Outcome};
 use crate::editor::command::BakeAction;
@@ -42,6 +43,12 @@ pub fn act(state: &mut State, ctx: &egui::Context, action: BakeAction) {
             state.bake = *settings;
         }
         BakeAction::Ask => ask(state, ctx),
+        BakeAction::Edits(edits) => edit_baking::ask(state, ctx, edits),
+        BakeAction::CancelEdits => {
+            if let Some(baking) = &state.edit_baking {
+                baking.cancel();
+            }
+        }
         BakeAction::Cancel => {
             if let Some(baking) = &state.baking {
                 baking.cancel();

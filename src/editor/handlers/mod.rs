@@ -5,6 +5,7 @@
 //! - [`answers`]: answers to questions about files, and the close button
 //! - [`open_file`]: the open file has changed on disk
 //! - [`shooting`]: photographs and films; [`baking`]: maps for other programs
+//! - [`edit_baking`]: ground edits into a height picture
 //! - [`biome_table`]: import and export of the biome table
 //! - [`pictures`]: height maps
 //! - [`variations`]: variations of the planet, and locks
@@ -24,6 +25,7 @@ pub mod bookmarks;
 pub mod clipboard;
 pub mod compare;
 pub mod device;
+pub mod edit_baking;
 pub mod library;
 pub mod open_file;
 pub mod opening;

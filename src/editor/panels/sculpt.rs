@@ -1,27 +1,19 @@
-//! The sculpt tab: the tool in hand, the list of ground edits, and the parameters of the selected one.
+//! The sculpt tab: the tool in hand, and the parameters of the selected edit. The list of edits is in `edit_list`.
 
 use super::biomes::names;
-use super::{Draft, rest};
+use super::{Draft, edit_list, rest};
 use crate::editor::command::{Action, SculptAction};
-use crate::editor::finder::place::Place;
 use crate::editor::state::describe;
 use crate::editor::viewport::sculpt::{SculptLink, tidy_km};
-use crate::editor::widgets::icon::{Icon, icon_button};
-use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::row_view::{LockView, RowView};
-use crate::planet::edits::{EditPoint, Flatten, GroundEdit, MAX_EDITS, MaskPaint, edit_path};
+use crate::planet::edits::{Flatten, GroundEdit, MaskPaint, edit_path};
 use crate::planet::param::{Choice, ParamPath};
 use crate::planet::{Mask, PaintedMask, Planet, TableRows, Tool};
-use crate::sphere::LatLon;
-use eframe::egui::{self, AtomExt};
+use eframe::egui;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Share of the tab's height that the list takes at most.
-const LIST_SHARE: f32 = 0.3;
-/// Height of a row of the list, in points.
-const ROW: f32 = 20.0;
 /// The change of the radius by one key.
 const STEP: f64 = 1.25;
 /// Radius that a brush has at first: a share of the altitude of the eye, so that its mark is seen, and at most a share
@@ -60,8 +52,10 @@ pub struct SculptState {
     /// Altitude of the eye; 0 before the first picture.
     altitude_m: f64,
     /// Words that edits in the list must have.
-    find: String,
-    scroll_to: Option<usize>,
+    pub(super) find: String,
+    pub(super) scroll_to: Option<usize>,
+    /// Share that is done of edits that are being baked.
+    pub(super) baked: Option<f64>,
 }
 
 impl SculptState {
@@ -77,6 +71,11 @@ impl SculptState {
         self.altitude_m = altitude_m;
     }
 
+    /// Notes how far edits are that are being baked; None if none are.
+    pub fn note_baking(&mut self, done: Option<f64>) {
+        self.baked = done;
+    }
+
     /// Selects an edit.
     pub fn select(&mut self, index: usize) {
         (self.selected, self.scroll_to) = (Some(index), Some(index));
@@ -87,6 +86,7 @@ impl SculptState {
         match action {
             SculptAction::Take(tool) => (self.tool, self.in_hand, self.measures) = (tool, true, false),
             SculptAction::PaintMask { layer, mask } => self.take_mask(planet, layer, mask),
+            SculptAction::Select(index) => self.select(index),
             SculptAction::PutDown => (self.in_hand, self.measures) = (!self.in_hand, false),
             SculptAction::Measure => (self.in_hand, self.measures) = (false, !self.measures),
             SculptAction::Larger => self.brush(planet).radius_km = tidy_km(self.brush(planet).radius_km * STEP),
@@ -144,7 +144,7 @@ pub fn show(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
         if !draft.shown.filter.is_active() {
             brush(ui, state, draft);
             ui.separator();
-            list(ui, state, draft);
+            edit_list::show(ui, state, draft);
         }
         selected(ui, state, draft);
     });
@@ -226,132 +226,6 @@ fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     }
 }
 
-/// The edits, in the order in which they act.
-fn list(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
-    let count = draft.planet.edits.len();
-    ui.horizontal(|ui| {
-        ui.strong("Edits");
-        ui.weak(format!("{count}"));
-        let chosen = state.selected;
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            buttons(ui, state, draft, chosen);
-            let edit =
-                egui::TextEdit::singleline(&mut state.find).hint_text("Find").desired_width(ui.available_width());
-            ui.add(edit).accessible_name("Find edits");
-        });
-    });
-    if count == 0 {
-        ui.weak("There are none yet.");
-        return;
-    }
-    let words: Vec<String> = state.find.split_whitespace().map(str::to_lowercase).collect();
-    let fits = |edit: &GroundEdit| {
-        let text = format!("{} {}", edit.name, tool_label(edit)).to_lowercase();
-        words.iter().all(|word| text.contains(word.as_str()))
-    };
-    let shown: Vec<usize> = match words.is_empty() {
-        true => (0..draft.planet.edits.len()).collect(),
-        false => draft.planet.edits.iter().enumerate().filter(|(_, edit)| fits(edit)).map(|(index, _)| index).collect(),
-    };
-    let height = (LIST_SHARE * ui.ctx().content_rect().height()).max(4.0 * ROW);
-    let mut area = egui::ScrollArea::vertical().id_salt("list of edits").max_height(height).auto_shrink([false, true]);
-    if let Some(row) = state.scroll_to.take().and_then(|index| shown.iter().position(|other| *other == index)) {
-        let step = ROW + ui.spacing().item_spacing.y;
-        area = area.vertical_scroll_offset((row as f32 * step - 0.5 * height).max(0.0));
-    }
-    area.show_rows(ui, ROW, shown.len(), |ui, rows| {
-        ui.set_max_width(ui.available_width() - 10.0);
-        for index in shown.get(rows).unwrap_or_default() {
-            row(ui, state, draft, *index);
-        }
-    });
-}
-
-fn row(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>, index: usize) {
-    let Some(edit) = draft.planet.edits.get(index) else { return };
-    let (name, mut enabled, label) = (edit.name.clone(), edit.enabled, tool_label(edit));
-    let details = format!("{label} · {}", length_text(edit.radius_km * 1000.0));
-    ui.horizontal(|ui| {
-        let check = ui.add(egui::Checkbox::without_text(&mut enabled)).on_hover_text("Whether it changes the ground");
-        if check.accessible_name(format!("Enabled of {name}")).changed()
-            && let Some(edit) = draft.planet.edits.get_mut(index)
-        {
-            edit.enabled = enabled;
-            draft.name_edit(format!("{} {name}", if enabled { "Show" } else { "Hide" }));
-        }
-        let text = egui::RichText::new(&name);
-        let text = if enabled { text } else { text.weak() };
-        let atoms =
-            (egui::Atom::from(text).atom_shrink(true), egui::Atom::grow(), egui::RichText::new(details).weak().small());
-        let button = egui::Button::selectable(state.selected == Some(index), atoms).truncate();
-        let response = ui.add(button.min_size(egui::vec2(ui.available_width(), ROW)));
-        let response = response.on_hover_text("Click to select; double-click to fly there");
-        if response.clicked() {
-            state.selected = Some(index);
-        }
-        if response.double_clicked() {
-            go_to(draft, index);
-        }
-        response.accessible_name(format!("Edit {name}"));
-    });
-}
-
-/// What can be done with the selected edit.
-fn buttons(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>, chosen: Option<usize>) {
-    let count = draft.planet.edits.len();
-    let name = chosen.and_then(|index| draft.planet.edits.get(index)).map(|edit| edit.name.clone()).unwrap_or_default();
-    ui.add_enabled_ui(chosen.is_some(), |ui| {
-        if icon_button(ui, Icon::Remove, "Remove edit", "Remove the selected edit").clicked()
-            && let Some(index) = chosen
-        {
-            draft.planet.edits.remove(index);
-            state.selected = (count > 1).then(|| index.min(count - 2));
-            draft.name_edit(format!("Remove {name}"));
-        }
-    });
-    for (icon, verb, down) in [(Icon::Down, "Move edit down", true), (Icon::Up, "Move edit up", false)] {
-        let to =
-            chosen.and_then(|index| if down { Some(index + 1).filter(|to| *to < count) } else { index.checked_sub(1) });
-        ui.add_enabled_ui(to.is_some(), |ui| {
-            if icon_button(ui, icon, verb, "Edits act from first to last").clicked()
-                && let (Some(from), Some(to)) = (chosen, to)
-            {
-                draft.planet.edits.shift(from, to);
-                state.select(to);
-                draft.name_edit(format!("Move {name}"));
-            }
-        });
-    }
-    ui.add_enabled_ui(chosen.is_some() && count < MAX_EDITS, |ui| {
-        if icon_button(ui, Icon::Duplicate, "Duplicate edit", "Add a copy behind the selected edit").clicked()
-            && let Some(index) = chosen
-            && let Some(copy) = draft.planet.edits.get(index).cloned()
-        {
-            draft.planet.edits.insert(index + 1, copy);
-            state.select(index + 1);
-            draft.name_edit(format!("Duplicate {name}"));
-        }
-    });
-    ui.add_enabled_ui(chosen.is_some(), |ui| {
-        if ui.button("Go to").on_hover_text("Fly to the selected edit").accessible_name("Go to edit").clicked()
-            && let Some(index) = chosen
-        {
-            go_to(draft, index);
-        }
-    });
-}
-
-/// Flies to an edit, as high as it is wide.
-fn go_to(draft: &mut Draft<'_>, index: usize) {
-    let Some(edit) = draft.planet.edits.get(index) else { return };
-    let middle: glam::DVec3 = edit.points.0.iter().map(EditPoint::direction).sum();
-    let middle = middle.try_normalize().unwrap_or(glam::DVec3::Z);
-    let spread_rad = edit.points.0.iter().map(|point| point.direction().angle_between(middle)).fold(0.0, f64::max);
-    let size_m = spread_rad * draft.planet.radius_m() + edit.radius_km * 1000.0;
-    let (lat_deg, lon_deg) = LatLon::from_direction(middle).to_degrees();
-    draft.commands.push(Action::GoToPlace(Place { lat_deg, lon_deg, altitude_m: Some(3.0 * size_m) }));
-}
-
 /// The parameters of the selected edit.
 fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let Some(index) = state.selected else { return };
@@ -418,8 +292,4 @@ fn idle_tool(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
     } else if biomes.rows == TableRows::Elevation {
         ui.weak("The rows of the biome table are heights: only moisture is painted.");
     }
-}
-
-fn tool_label(edit: &GroundEdit) -> &'static str {
-    Tool::LABELS.get(edit.tool.index()).copied().unwrap_or_default()
 }

@@ -11,6 +11,7 @@
 //! - [`recovery`]: the working copy
 //! - [`job`]: work on a thread of its own; [`bake_settings`], [`baking`]: maps and meshes for other
 //!   programs
+//! - [`edit_baking`]: ground edits into a height picture
 //! - [`shelf`]: what the library shows
 //! - [`shooting`]: photographs and films
 //! - [`variations`], [`templates`]: planets to choose from: variations of this one, what a new one begins as
@@ -23,6 +24,7 @@ pub mod baking;
 pub mod describe;
 pub mod device;
 pub mod document;
+pub mod edit_baking;
 pub mod history;
 pub mod job;
 pub mod notices;
@@ -51,6 +53,7 @@ use bake_settings::BakeSettings;
 use baking::{BakePreview, Baking};
 use device::DeviceWatch;
 use document::Document;
+use edit_baking::EditBaking;
 use eframe::egui;
 use notices::Notices;
 use open_file::OpenFile;
@@ -183,6 +186,8 @@ pub struct State {
     pub bake_preview: BakePreview,
     /// What is being baked.
     pub baking: Option<Baking>,
+    /// Ground edits that are being baked.
+    pub edit_baking: Option<EditBaking>,
     /// Variations of the planet.
     pub variations: Variations,
     /// The planets of [`templates::ALL`]; empty until they have been shown.
@@ -233,6 +238,7 @@ impl State {
             bake_region_is_set: false,
             bake_preview: BakePreview::default(),
             baking: None,
+            edit_baking: None,
             variations: Variations::default(),
             templates: Sheet::default(),
             system: None,

@@ -59,6 +59,8 @@ pub enum Asking {
     Photograph(Subject),
     /// A folder or a file for what is baked.
     Baked(Product),
+    /// A picture for the ground edits of these indices.
+    BakedEdits(Vec<usize>),
     /// A file to save the system to.
     SaveSystem,
     /// The preset of a new body about this one.
@@ -76,6 +78,13 @@ pub enum Replace {
     Mesh(PathBuf),
     /// By the system.
     System(PathBuf),
+    /// By the picture of ground edits.
+    BakedEdits {
+        /// Their indices.
+        edits: Vec<usize>,
+        /// The file that was chosen.
+        path: PathBuf,
+    },
     /// By a photograph, or by the frames of a film of this name.
     Photograph {
         /// What is taken.
@@ -95,6 +104,7 @@ impl Replace {
             | Replace::Table(path)
             | Replace::Mesh(path)
             | Replace::System(path)
+            | Replace::BakedEdits { path, .. }
             | Replace::Photograph { first: path, .. } => path,
         }
     }

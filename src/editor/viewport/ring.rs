@@ -93,6 +93,11 @@ pub(super) fn paint_brush(painter: &Painter, ground: &Ground<'_>, middle: DVec3,
     }
 }
 
+/// Draws where an image of the brush by symmetry ends.
+pub(super) fn paint_image(painter: &Painter, ground: &Ground<'_>, middle: DVec3, radius_m: f64) {
+    ground.ring(painter, middle, radius_m, Stroke::new(1.0, FAINT));
+}
+
 /// Draws the points of an edit and the way between them; of a stamp, its ring.
 pub(super) fn paint_edit(painter: &Painter, ground: &Ground<'_>, edit: &GroundEdit) {
     let dirs: Vec<DVec3> = edit.points.0.iter().take(MOST_POINTS).map(EditPoint::direction).collect();
@@ -103,6 +108,13 @@ pub(super) fn paint_edit(painter: &Painter, ground: &Ground<'_>, edit: &GroundEd
         }
     } else {
         ground.draw(painter, &dirs, Stroke::new(1.0, FAINT));
+    }
+    for image in edit.images() {
+        let dirs: Vec<DVec3> = dirs.iter().map(|dir| image.of(*dir)).collect();
+        match edit.tool.is_stamp() {
+            true => dirs.iter().for_each(|dir| paint_image(painter, ground, *dir, edit.radius_km * 1000.0)),
+            false => ground.draw(painter, &dirs, Stroke::new(1.0, FAINT)),
+        }
     }
     for place in dirs.iter().filter_map(|dir| ground.on_screen(*dir)) {
         painter.circle(place, 3.5, INK, Stroke::new(1.0, Color32::BLACK));

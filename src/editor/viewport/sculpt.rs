@@ -10,7 +10,7 @@ use super::pointer::in_view;
 use super::ring;
 use crate::editor::widgets::random_seed;
 use crate::lod::{Camera, View};
-use crate::planet::edits::{EditPoint, GroundEdit, MAX_EDIT_POINTS, MAX_EDITS, PaintMode};
+use crate::planet::edits::{EditPoint, GroundEdit, MAX_EDITS, PaintMode};
 use crate::planet::param::Choice;
 use crate::planet::{Planet, Tool};
 use crate::tiles::Surface;
@@ -250,7 +250,7 @@ impl Hand {
                 edit.points.0.truncate(*fixed);
                 let point = point_at(on, edit, to);
                 let away_m = to.distance(last) * radius_m;
-                if point != *edit.points.0.last()? && *fixed < MAX_EDIT_POINTS {
+                if point != *edit.points.0.last()? && *fixed < edit.most_points() {
                     edit.points.0.push(point);
                     *fixed += usize::from(away_m >= SPACING * edit.radius_km * 1000.0);
                 }
@@ -299,7 +299,7 @@ impl Hand {
             let may_close = !matches!(brush.tool, Tool::River(_));
             let closes = may_close && is_near(scene, &first, pos) && planet.edits.get(index)?.points.0.len() > 2;
             let edit = planet.edits.get_mut(index)?;
-            if edit.points.0.len() < MAX_EDIT_POINTS {
+            if edit.points.0.len() < edit.most_points() {
                 edit.points.0.push(if closes { first } else { point });
             }
             self.line = self.line.filter(|_| !closes);
@@ -338,6 +338,7 @@ impl Hand {
             };
             let (middle, radius_km, softness) = held.unwrap_or((middle, brush.radius_km, brush.softness));
             ring::paint_brush(painter, &ground, middle, radius_km * 1000.0, softness);
+            brush.images().for_each(|image| ring::paint_image(painter, &ground, image.of(middle), radius_km * 1000.0));
         }
     }
 }

@@ -2,15 +2,17 @@
 //!
 //! - [`GroundEdit`]: one edit: a tool, where it acts, how wide and how soft
 //! - `tools`: the tools and their parameters
-//! - `points`: the points of an edit on the globe
+//! - `points`: the points of an edit on the globe; `images`: its images by symmetry
 //! - `list`: the list of edits, cheap to copy
 //!
 //! Strokes, stamps, splines and paint have one form: a tool along points. A stamp acts around each point alone.
 
+mod images;
 mod list;
 mod points;
 mod tools;
 
+pub use images::MAX_TURNS;
 pub use list::GroundEdits;
 pub(crate) use list::Shared;
 pub use points::{EditPoint, EditPoints};
@@ -62,6 +64,10 @@ params! {
         raggedness: f64 = 0.0, "Raggedness", Unit::None, linear(0.0, 1.0), Stage::Height;
         /// Seed of its outline and roughness.
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Height;
+        /// Symmetry: how many times the edit is there, turned by equal angles around the axis of the planet.
+        turns: u32 = 1, "Turns", Unit::None, count(1, MAX_TURNS), Stage::Height;
+        /// Symmetry: whether the edit is also there on the other side of the equator, as in a mirror.
+        mirrored: bool = false, "Mirrored", Unit::None, Domain::Flag, Stage::Height;
         /// Of a stamp: how many copies are scattered around each of its points.
         copies: u32 = 1, "Copies", Unit::None, count(1, MAX_COPIES), Stage::Height;
         /// Of a stamp: distance from each point within which its copies lie.

@@ -142,6 +142,8 @@ impl CompiledEdit {
             CompiledTool::Coast { .. } => path::set_values(&mut arcs, |from, to| rise(from.min(to) / radius_rad).0),
             _ => {}
         }
+        let has_sides = matches!(tool, CompiledTool::Fault { .. } | CompiledTool::Coast { .. });
+        path::add_images(&mut arcs, edit, has_sides);
         let sea_limit = match edit.limit {
             Limit::Everywhere => None,
             Limit::AboveSea => Some((sea_m.unwrap_or(0.0), true)),
@@ -214,7 +216,7 @@ impl CompiledEdit {
         self.stamp.iter().flat_map(Stamp::content).for_each(|number| common.add(number));
         // Each place of a stamp acts for itself.
         let size = if self.is_stamp { 1 } else { PIECE };
-        let piece = |(number, arcs): (usize, &[Arc])| {
+        let piece = |(first, arcs): (usize, &[Arc])| {
             let middle = arcs.iter().map(|arc| arc.a + arc.b).sum::<DVec3>().normalize_or(arcs[0].a);
             let ends = arcs.iter().flat_map(|arc| [arc.a, arc.b]);
             let largest = arcs.iter().map(|arc| arc.scale).fold(0.0, f64::max);
@@ -228,13 +230,18 @@ impl CompiledEdit {
             arcs.iter().flat_map(|arc| arc.values).for_each(|value| hash.add_f64(value));
             arcs.iter().for_each(|arc| hash.add_f64(arc.scale));
             if let Some(stamp) = &self.stamp {
-                let up = stamp.axes(number * size)[1];
+                let up = stamp.axes(first)[1];
                 up.to_array().into_iter().for_each(|part| hash.add_f64(part));
             }
-            let (first, count) = ((number * size) as u32, arcs.len() as u32);
+            let (first, count) = (first as u32, arcs.len() as u32);
             Piece { first, count, middle, chord: chord_of(angle_rad), hash: hash.0 }
         };
-        self.arcs.chunks(size).enumerate().map(piece).collect()
+        // Images lie far apart.
+        let image = (self.arcs.len() / edit.image_count()).max(1);
+        let firsts = (0..self.arcs.len()).step_by(image).flat_map(|begin| {
+            (begin..begin + image).step_by(size).map(move |first| (first, (first + size).min(begin + image)))
+        });
+        firsts.map(|(first, end)| piece((first, &self.arcs[first..end]))).collect()
     }
 
     /// The edit with another context, which is part of the content of its pieces. None if that is its context already.

@@ -293,6 +293,31 @@ impl Edits {
         !self.climate.is_empty() && near.holds_any(&self.climate, dirs)
     }
 
+    /// Whether edits of the ground reach each of some points.
+    #[cfg(feature = "bake")]
+    pub(crate) fn reached(&self, dirs: &[DVec3]) -> Vec<bool> {
+        let mut reached = vec![false; dirs.len()];
+        Near::default().each_touch(
+            &self.ground,
+            &self.roster,
+            dirs,
+            |_, _| true,
+            |Touch { hits, .. }| {
+                hits.iter().for_each(|hit| reached[hit.point] = true);
+            },
+        );
+        reached
+    }
+
+    /// A disc that holds all ground that edits reach: its middle and its angle. None if there is none.
+    #[cfg(feature = "bake")]
+    pub(crate) fn disc(&self) -> Option<(DVec3, f64)> {
+        let pieces = || self.roster.edits().filter(|edit| edit.paint().is_none()).flat_map(|edit| &edit.pieces);
+        let middle = pieces().map(|piece| piece.middle).sum::<DVec3>().try_normalize()?;
+        let reach_rad = |piece: &Piece| middle.angle_between(piece.middle) + path::angle_of(piece.chord * piece.chord);
+        Some((middle, pieces().map(reach_rad).fold(0.0, f64::max)))
+    }
+
     /// How far from a place the ground lies, as an angle, that decides about the ground within an angle of it: farther
     /// where edits read the ground.
     pub(crate) fn reach_rad(&self, dir: DVec3, angle_rad: f64) -> f64 {

@@ -24,6 +24,8 @@ pub(super) struct Arc {
     pub(super) scale: f64,
     /// By how much a stamp's copy is turned, -1 to 1.
     pub(super) turned: f64,
+    /// Whether it is a mirror image.
+    pub(super) flipped: bool,
 }
 
 /// The place of an arc that is nearest to a point.
@@ -42,7 +44,7 @@ impl Arc {
         let normal = a.cross(b - a);
         let length = normal.length();
         let normal = if length > 0.0 { normal / length } else { DVec3::ZERO };
-        Self { a, b, normal, values, scale: 1.0, turned: 0.0 }
+        Self { a, b, normal, values, scale: 1.0, turned: 0.0, flipped: false }
     }
 
     /// The nearest place to a unit direction: its squared chord, and whether it lies between the ends.
@@ -197,6 +199,24 @@ pub(super) fn arcs(points: &[EditPoint], radius_rad: f64) -> Vec<Arc> {
         }
     }
     arcs
+}
+
+/// Adds the images of arcs by symmetry, each behind the other. `has_sides`: what is on the left of a line stays there in
+/// its mirror image.
+pub(super) fn add_images(arcs: &mut Vec<Arc>, edit: &GroundEdit, has_sides: bool) {
+    let own = arcs.clone();
+    for image in edit.images() {
+        let begin = arcs.len();
+        arcs.extend(own.iter().map(|arc| {
+            let ([a, b], [from, to]) = ([arc.a, arc.b].map(|end| image.of(end)), arc.values);
+            let turns_around = has_sides && image.mirrored;
+            let new = if turns_around { Arc::new(b, a, [to, from]) } else { Arc::new(a, b, [from, to]) };
+            Arc { scale: arc.scale, turned: arc.turned, flipped: image.mirrored, ..new }
+        }));
+        if has_sides && image.mirrored {
+            arcs[begin..].reverse();
+        }
+    }
 }
 
 /// Gives each end of the arcs a value by its place on the line: its distances from the beginning and from the end, as

@@ -159,6 +159,12 @@ impl Roster {
         self.ranks.get(slot as usize).copied().unwrap_or(0)
     }
 
+    /// The edits that are on, compiled, in order.
+    #[cfg(feature = "bake")]
+    pub(super) fn edits(&self) -> impl Iterator<Item = &Arc<CompiledEdit>> {
+        self.entries.iter().filter_map(|entry| self.edit(entry.slot))
+    }
+
     /// The edits that read the ground around a point, in order, with their slots.
     pub(super) fn reading(&self) -> impl Iterator<Item = (u32, &Arc<CompiledEdit>)> {
         let reading = self.entries.iter().filter(|entry| entry.reads);

@@ -39,6 +39,7 @@ impl Stamp {
         let picture = stamp.file.picture(PictureExtent::Place)?.clone();
         let axes = |place: &Arc| {
             let (east, north) = east_north(place.a);
+            let north = if place.flipped { -north } else { north };
             let (sin, cos) = libm::sincos((stamp.turn_deg + stamp.random_turn_deg * place.turned).to_radians());
             [east * cos - north * sin, north * cos + east * sin]
         };

@@ -64,13 +64,19 @@ impl Edits {
 
 /// The rivers of a roster whose courses are drawn by hand.
 pub(super) fn courses_of(roster: &Roster, radius_m: f64) -> Vec<DrawnCourse> {
-    let course = |edit: &crate::planet::GroundEdit| match edit.tool {
-        Tool::River(RiverCourse { spring_m3_s, cut }) => {
-            let points = edit.points.0.iter().map(EditPoint::direction).collect();
-            let wander_rad = (edit.raggedness * edit.radius_km * 1000.0 / radius_m).min(MOST_WANDER_RAD);
-            Some(DrawnCourse { points, wander_rad, seed: edit.seed, spring_m3_s, cut })
-        }
-        _ => None,
-    };
-    roster.shared().filter_map(|shared| course(&shared.edit)).collect()
+    let mut courses = Vec::new();
+    for edit in roster.shared().map(|shared| &shared.edit) {
+        let Tool::River(RiverCourse { spring_m3_s, cut }) = edit.tool else { continue };
+        let points: Vec<DVec3> = edit.points.0.iter().map(EditPoint::direction).collect();
+        let wander_rad = (edit.raggedness * edit.radius_km * 1000.0 / radius_m).min(MOST_WANDER_RAD);
+        let course = DrawnCourse { points, wander_rad, seed: edit.seed, spring_m3_s, cut };
+        let images = edit.images().map(|image| {
+            let points = course.points.iter().map(|dir| image.of(*dir)).collect();
+            DrawnCourse { points, ..course.clone() }
+        });
+        let images: Vec<DrawnCourse> = images.collect();
+        courses.push(course);
+        courses.extend(images);
+    }
+    courses
 }

@@ -1,0 +1,84 @@
+//! Ground edits on their way into a height picture, on another thread.
+
+use super::job::{GoOn, Job};
+use crate::bake::{Deviation, EditBake};
+use crate::planet::{GroundEdits, Planet};
+use crate::terrain::MapStore;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Share of the progress in which the edits are evaluated; the rest compares the picture with them.
+const EVALUATING: f64 = 0.9;
+
+/// Edits that are being baked.
+pub struct EditBaking {
+    /// The picture.
+    pub to: PathBuf,
+    /// The edits of the planet that it was asked of.
+    pub asked: GroundEdits,
+    job: Job<Result<Option<Done>, String>>,
+}
+
+/// What has become of them.
+#[derive(Debug)]
+pub struct Done {
+    /// The edits of the planet with the stamp in the place of those that were baked.
+    pub edits: GroundEdits,
+    /// The index of the stamp.
+    pub index: usize,
+    /// How many were baked.
+    pub count: usize,
+    /// Size of a pixel on the ground, metres.
+    pub pixel_m: f64,
+    /// How far the new ground is from the old.
+    pub deviation: Deviation,
+}
+
+impl EditBaking {
+    /// Bakes on another thread. `wake` is called when there is progress.
+    pub fn start(
+        planet: Arc<Planet>,
+        chosen: Vec<usize>,
+        (to, folder): (&Path, Option<PathBuf>),
+        store: Option<Arc<MapStore>>,
+        wake: impl Fn() + Send + Sync + 'static,
+    ) -> Self {
+        let (path, asked) = (to.to_owned(), planet.edits.clone());
+        let work = move |go_on: GoOn<'_>| {
+            let why = |error: crate::bake::BakeError| error.to_string();
+            let bake = EditBake::new(&planet, chosen).map_err(why)?;
+            let Some(baked) = bake.run(store.as_ref(), &|done| go_on(EVALUATING * done)).map_err(why)? else {
+                return Ok(None);
+            };
+            baked.write(&path).map_err(why)?;
+            let compared = bake.compare(&baked, &path, store.as_ref(), &|_| go_on(EVALUATING)).map_err(why)?;
+            let Some(deviation) = compared else { return Ok(None) };
+            let mut stamped = baked.replace(&planet, &path);
+            if let Some(folder) = folder {
+                stamped = stamped.moved_to(&folder);
+            }
+            if let Some((_, why)) = stamped.load_pictures().into_iter().next() {
+                return Err(format!("{}: {why}", path.display()));
+            }
+            let (index, count, pixel_m) = (baked.index(), bake.count(), bake.pixel_m());
+            Ok(Some(Done { edits: stamped.edits, index, count, pixel_m, deviation }))
+        };
+        Self { to: to.to_owned(), asked, job: Job::start(work, wake) }
+    }
+
+    /// Share that is done, 0 to 1.
+    pub fn done(&self) -> f64 {
+        self.job.done()
+    }
+
+    /// Stops.
+    pub fn cancel(&self) {
+        self.job.stop();
+    }
+
+    /// How it ended, once it has; an inner None if it was stopped.
+    pub fn ended(&self) -> Option<Result<Option<Done>, String>> {
+        let failed = || Err("it could not be computed; try again".to_owned());
+        self.job.ended().map(|result| result.unwrap_or_else(failed))
+    }
+}
