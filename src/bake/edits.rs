@@ -80,8 +80,8 @@ pub struct Deviation {
 }
 
 impl EditBake {
-    /// A bake of some edits of a planet, given by their indices. Paint, edits of a structure and those that are off stay
-    /// as they are. The planet is valid.
+    /// A bake of some edits of a planet, given by their indices. Paint, edits of a structure and those that are off
+    /// stay as they are. The planet is valid.
     ///
     /// # Errors
     ///
@@ -193,7 +193,11 @@ impl EditBake {
         let height_m = most_m.min(20_000.0);
         let values = heights_m.iter().map(|value| (value / height_m) as f32).collect();
         let stamp = GroundEdit {
-            name: format!("Baked: {} edits", self.chosen.len()),
+            name: if self.chosen.len() == 1 {
+                "Baked: 1 edit".to_owned()
+            } else {
+                format!("Baked: {} edits", self.chosen.len())
+            },
             radius_km: self.place.radius_rad * self.with.radius_km,
             softness: 0.0,
             points: [EditPoint::under(self.place.middle)].into_iter().collect(),
@@ -294,8 +298,8 @@ impl BakedEdits {
         write_atomically_with(file, None, &mut write).map_err(|error| BakeError::file(file, error))
     }
 
-    /// The planet with the stamp in the place of the edits. `file`: the path of the picture, absolute or relative to the
-    /// folder of the preset.
+    /// The planet with the stamp in the place of the edits. `file`: the path of the picture, absolute or relative to
+    /// the folder of the preset.
     pub fn replace(&self, planet: &Planet, file: &Path) -> Planet {
         let mut planet = planet.clone();
         let mut stamp = self.stamp.clone();

@@ -2,7 +2,7 @@
 //!
 //! Ranges come from the description of each parameter. Rules that involve several parameters are here.
 
-use super::edits::{self, MAX_ALL_COPIES, MAX_EDIT_POINTS, MAX_EDITS, MOST_COURSES_RADII};
+use super::edits::{self, LEAST_WIDTH, MAX_ALL_COPIES, MAX_EDIT_POINTS, MAX_EDITS, MOST_COURSES_RADII, MOST_WIDTH};
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Params as _, Segment};
 use super::structure::MAX_PLATES;
@@ -215,13 +215,15 @@ fn points(index: usize, edit: &GroundEdit, found: &mut Found) {
         found.add(list(), "an edit needs a point; use `[(latitude, longitude)]`, or remove the edit");
     }
     for (number, point) in points.iter().enumerate() {
-        for (value, most, what, unit) in [
-            (point.latitude_deg, 90.0, "latitude", "°"),
-            (point.longitude_deg, 180.0, "longitude", "°"),
-            (point.height_m, MOST_POINT_M, "height", " m"),
+        for (value, least, most, what, unit) in [
+            (point.latitude_deg, -90.0, 90.0, "latitude", "°"),
+            (point.longitude_deg, -180.0, 180.0, "longitude", "°"),
+            (point.height_m, -MOST_POINT_M, MOST_POINT_M, "height", " m"),
+            (point.width, LEAST_WIDTH, MOST_WIDTH, "width", ""),
+            (point.strength, 0.0, 1.0, "strength", ""),
         ] {
-            if value.is_nan() || value.abs() > most {
-                let message = format!("the {what} {value} is out of range; use {} to {most}{unit}", -most);
+            if !(least..=most).contains(&value) {
+                let message = format!("the {what} {value} is out of range; use {least} to {most}{unit}");
                 found.add(item(&list(), number, None), message);
                 return;
             }

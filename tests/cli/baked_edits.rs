@@ -9,8 +9,11 @@ use tellus::sphere::{LatLon, geo};
 use tellus::terrain::Terrain;
 
 fn edit(name: &str, tool: Tool, radius_km: f64, points: &[(f64, f64)]) -> GroundEdit {
-    let point =
-        |(lat_deg, lon_deg): &(f64, f64)| EditPoint { latitude_deg: *lat_deg, longitude_deg: *lon_deg, height_m: 0.0 };
+    let point = |(lat_deg, lon_deg): &(f64, f64)| EditPoint {
+        latitude_deg: *lat_deg,
+        longitude_deg: *lon_deg,
+        ..EditPoint::default()
+    };
     let points = EditPoints(points.iter().map(point).collect());
     GroundEdit { name: name.to_owned(), radius_km, points, ..GroundEdit::of(tool) }
 }

@@ -6,6 +6,7 @@
 //! - `readback`: every map, format and projection
 //! - `rivers`: rivers as GeoJSON, many points
 //! - `mesh`: meshes against `tellus sample`
+//! - `fuzz`: random command lines
 //! - `house`: the length of files and comments
 //! - `hostile`: broken and oversized files
 //! - `system`: systems of planets
@@ -18,6 +19,7 @@ mod commands;
 mod decode;
 #[cfg(target_os = "linux")]
 mod disk;
+mod fuzz;
 #[cfg(unix)]
 mod hostile;
 mod house;
@@ -26,6 +28,9 @@ mod readback;
 mod readme;
 mod rivers;
 mod system;
+
+#[path = "../support/dice.rs"]
+mod dice;
 
 /// A planet without a structure: there are no maps to solve.
 const LAYERED: &str = "tests/fixtures/layered.ron";

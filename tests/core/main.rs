@@ -8,7 +8,7 @@
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
-//! - `sculpt`, `stamp`, `erosion`, `paint`, `masks`, `structural`: ground edits
+//! - `sculpt`, `images`, `stamp`, `erosion`, `paint`, `masks`, `structural`: ground edits
 //! - `system`: orbits and resonances
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
@@ -21,6 +21,7 @@ mod fuzz;
 mod header;
 mod heightmap;
 mod idle;
+mod images;
 mod joining;
 mod landforms;
 mod lod;

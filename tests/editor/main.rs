@@ -4,7 +4,7 @@
 //! - `crash`: what is left after a crash, and what is told of it
 //! - `disk`: other programs and windows on the open file; new files; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
-//! - `painter`: the painter of the biome table; `plates`: plates of the structure; `sculpt`: ground edits
+//! - `painter`: the painter of the biome table; `plates`: plates of the structure; `sculpt`, `edits`: ground edits
 //! - `finder`: commands, planets, bookmarks and parameters by name
 //! - `finding`: filters, and the row of a parameter that was searched for
 //! - `inspector`: all that is known of a place; `looks`: golden pictures of windows
@@ -32,6 +32,7 @@ mod crash;
 mod dice;
 mod disk;
 mod docks;
+mod edits;
 mod files;
 mod finder;
 mod finding;

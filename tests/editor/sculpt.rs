@@ -6,16 +6,16 @@ use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use tellus::editor::command::Command;
 use tellus::editor::viewport::layer_view::LayerQuantity;
-use tellus::planet::edits::{EditPoint, GroundEdit, PictureStamp, Raise, Tool};
+use tellus::planet::edits::{PictureStamp, Raise, Tool};
 use tellus::planet::param::Choice;
 use tellus::planet::picture::PictureExtent;
 use tellus::planet::{GroundEdits, Layer, Mask, PaintedMask, Planet, Water};
 
-fn small() -> Planet {
+pub(super) fn small() -> Planet {
     Planet { radius_km: 1000.0, water: Some(Water { level_m: -100.0, ..Water::default() }), ..Planet::default() }
 }
 
-fn open() -> app::Editor {
+pub(super) fn open() -> app::Editor {
     let mut harness = app::open_planet_with_picture([1024.0, 640.0], small());
     app::wait_for_picture(&mut harness);
     // Opens the tab.
@@ -24,7 +24,7 @@ fn open() -> app::Editor {
     harness
 }
 
-fn stroke(harness: &mut app::Editor, from: egui::Pos2, to: egui::Pos2, modifiers: egui::Modifiers) {
+pub(super) fn stroke(harness: &mut app::Editor, from: egui::Pos2, to: egui::Pos2, modifiers: egui::Modifiers) {
     let button =
         |pos, pressed| egui::Event::PointerButton { pos, button: egui::PointerButton::Primary, pressed, modifiers };
     harness.event(egui::Event::ModifiersChanged(modifiers));
@@ -438,42 +438,4 @@ fn a_drag_ends_where_the_button_is_released_and_one_within_a_frame_is_a_drag() {
     harness.run_steps(2);
     let radii: Vec<f64> = planet(&harness).edits.iter().map(|edit| edit.radius_km).collect();
     assert!(radii.len() == 2 && (radii[1] / radii[0] - 1.0).abs() < 0.05, "{radii:?}");
-}
-
-#[test]
-fn edits_in_the_list_are_baked_into_a_picture_in_one_step_and_undo_brings_them_back() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("hills.exr");
-    let mut small = small();
-    let points =
-        |lat_deg: f64| [EditPoint { latitude_deg: lat_deg, longitude_deg: 20.0, height_m: 0.0 }].into_iter().collect();
-    let raise = |name: &str, lat_deg: f64| GroundEdit {
-        name: name.to_owned(),
-        points: points(lat_deg),
-        ..GroundEdit::of(Tool::Raise(Raise { amount_m: 600.0 }))
-    };
-    small.edits = [raise("hill", 10.0), raise("mound", 50.0), raise("hill two", 11.0)].into_iter().collect();
-    let mut harness = app::open_planet_with_answers([1024.0, 640.0], small, vec![Some(file.clone())]);
-    app::send(&mut harness, Command::TakeTool(0));
-    app::send(&mut harness, Command::PutDownTool);
-    let before = planet(&harness).edits;
-    harness.get_by_label("Find edits").click();
-    harness.run_steps(2);
-    harness.get_by_label("Find edits").type_text("hill");
-    harness.run_steps(2);
-    click(&mut harness, "Bake edits");
-    app::until(&mut harness, "the edits are baked", |harness| undo_len(harness) == 1);
-    assert_eq!(undo_label(&harness), "Bake 2 edits");
-    let after = planet(&harness).edits;
-    let names: Vec<&str> = after.iter().map(|edit| edit.name.as_str()).collect();
-    assert_eq!(names, ["mound", "Baked: 2 edits"]);
-    let Some(Tool::Picture(stamp)) = after.get(1).map(|edit| &edit.tool) else { panic!("{after:?}") };
-    // The ground is that of the picture at once.
-    assert!(stamp.file.picture(PictureExtent::Place).is_some() && file.is_file());
-    assert!((1190.0..=1200.01).contains(&stamp.height_m), "{}", stamp.height_m);
-    harness.run_steps(2);
-    assert!(harness.query_by_label_contains("Baked 2 edits into hills.exr").is_some());
-    assert_eq!(harness.state().viewport().tab.sculpt.selected, Some(1));
-    app::send(&mut harness, Command::Undo);
-    assert!(planet(&harness).edits == before);
 }

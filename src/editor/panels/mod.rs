@@ -7,7 +7,7 @@
 //! - [`finding`]: filters, and the parameter that was searched for
 //! - [`sections`]: which parameters stand under which heading
 //! - [`parts`]: planet, star, climate, and the optional parts; [`structure`]: plates, weather, rivers
-//! - [`sculpt`], [`edit_list`]: tools, and the list of ground edits
+//! - [`sculpt`], [`edit_list`], [`edit_points`]: tools, the list of ground edits, the points of one
 //! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers, and edits of their list
 //! - [`biomes`], [`biome_table`], [`biome_canvas`], [`biome_palette`], [`biome_edit`]: the biome table: the tab, the
 //!   table under the pointer, its picture, the palette, edits of both
@@ -19,6 +19,7 @@ pub mod biome_table;
 pub mod biomes;
 pub mod docks;
 pub mod edit_list;
+pub mod edit_points;
 pub mod finding;
 pub mod layer_edit;
 pub mod layers;

@@ -1,7 +1,7 @@
 //! The sculpt tab: the tool in hand, and the parameters of the selected edit. The list of edits is in `edit_list`.
 
 use super::biomes::names;
-use super::{Draft, edit_list, rest};
+use super::{Draft, edit_list, edit_points, rest};
 use crate::editor::command::{Action, SculptAction};
 use crate::editor::state::describe;
 use crate::editor::viewport::sculpt::{SculptLink, tidy_km};
@@ -248,6 +248,9 @@ fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let browse = params_grid(ui, &grid, &mut edit, &mut default);
     draft.commands.extend(browse.map(Action::Browse));
     idle_tool(ui, draft.planet, &edit.tool);
+    if !draft.shown.filter.is_active() {
+        edit_points::show(ui, &mut edit);
+    }
     if let Some(now) = draft.planet.edits.get_mut(index).filter(|now| **now != edit) {
         // Planets with this edit alone: the difference of thousands takes long.
         let [was, is] =

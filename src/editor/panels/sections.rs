@@ -33,6 +33,7 @@ const EDIT: &[Section] = &[
     open("Tool", &["tool"]),
     open("Extent", &["radius_km", "softness", "raggedness", "seed"]),
     folded("Acts on", &["limit", "above_m", "below_m"]),
+    folded("Symmetry", &["turns", "mirrored"]),
     folded("Copies", &["copies", "spread_km", "smallest"]),
 ];
 

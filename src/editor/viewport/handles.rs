@@ -64,7 +64,10 @@ pub(super) fn set_radius_dir(edit: &mut GroundEdit, to: DVec3, radius_m: f64) ->
 /// The points of an edit after one of them, where it was in `before`, was dragged.
 pub(super) fn dragged(before: &[EditPoint], grabbed: usize, to: DVec3, others: Others) -> Vec<EditPoint> {
     let Some(from) = before.get(grabbed).map(EditPoint::direction) else { return before.to_vec() };
-    let placed = |point: &EditPoint, dir: DVec3| EditPoint { height_m: point.height_m, ..EditPoint::under(dir) };
+    let placed = |point: &EditPoint, dir: DVec3| {
+        let EditPoint { latitude_deg, longitude_deg, .. } = EditPoint::under(dir);
+        EditPoint { latitude_deg, longitude_deg, ..*point }
+    };
     let each = |change: &dyn Fn(DVec3) -> DVec3| -> Vec<EditPoint> {
         before.iter().map(|point| placed(point, change(point.direction()))).collect()
     };

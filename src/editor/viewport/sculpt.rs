@@ -91,6 +91,8 @@ pub(super) struct Hand {
     /// The edit that was made or changed last, once.
     touched: Option<usize>,
     measure: Measure,
+    /// How hard a pen presses, 0 to 1; None without one that tells.
+    pressure: Option<f64>,
 }
 
 impl Hand {
@@ -114,6 +116,8 @@ impl Hand {
         planet: &mut Planet,
     ) -> Held {
         let (modifiers, origin) = ui.input(|i| (i.modifiers, i.pointer.press_origin()));
+        self.pressure =
+            ui.input(|i| pressure(&i.events, self.pressure, i.pointer.any_down() || i.pointer.any_released()));
         // With Alt, drags move the camera as without a brush.
         let brush = link.brush.as_deref().filter(|_| !modifiers.alt);
         if link.measures && !modifiers.alt {
@@ -208,7 +212,8 @@ impl Hand {
         planet: &mut Planet,
     ) -> Option<&'static str> {
         let middle = scene.ground(scene.surface, origin)?;
-        let index = self.place(brush, inverse, point_at(scene.surface, brush, middle), planet)?;
+        let point = pressed(point_at(scene.surface, brush, middle), self.pressure);
+        let index = self.place(brush, inverse, point, planet)?;
         let on = scene.surface.clone();
         self.gesture = match brush.tool.is_stamp() {
             true => Gesture::Stamp { index, middle, on },
@@ -241,14 +246,14 @@ impl Hand {
     /// Follows the pointer.
     fn drag(&mut self, scene: &Scene<'_>, pos: egui::Pos2, planet: &mut Planet) -> Option<&'static str> {
         let to = scene.ground(self.ground_on(scene), pos)?;
-        let radius_m = planet.radius_m();
+        let (radius_m, pressure) = (planet.radius_m(), self.pressure);
         match &mut self.gesture {
             Gesture::None => None,
             Gesture::Stroke { index, fixed, on } => {
                 let edit = planet.edits.get_mut(*index)?;
                 let last = edit.points.0.get(fixed.checked_sub(1)?)?.direction();
                 edit.points.0.truncate(*fixed);
-                let point = point_at(on, edit, to);
+                let point = pressed(point_at(on, edit, to), pressure);
                 let away_m = to.distance(last) * radius_m;
                 if point != *edit.points.0.last()? && *fixed < edit.most_points() {
                     edit.points.0.push(point);
@@ -341,6 +346,24 @@ impl Hand {
             brush.images().for_each(|image| ring::paint_image(painter, &ground, image.of(middle), radius_km * 1000.0));
         }
     }
+}
+
+/// Least strength of a stroke of a pen.
+const LIGHTEST: f64 = 0.05;
+
+/// How hard a pen presses after these events. Touches without force, and the mouse, tell nothing.
+fn pressure(events: &[egui::Event], before: Option<f64>, is_held: bool) -> Option<f64> {
+    let forces = events.iter().filter_map(|event| match event {
+        egui::Event::Touch { force, .. } => force.map(f64::from),
+        _ => None,
+    });
+    forces.rev().find(|force| *force > 0.0).or(before.filter(|_| is_held))
+}
+
+/// A point of a stroke: a pen that presses lightly does little.
+fn pressed(point: EditPoint, pressure: Option<f64>) -> EditPoint {
+    let strength = pressure.map_or(1.0, |pressure| (pressure.clamp(LIGHTEST, 1.0) * 1000.0).round() / 1000.0);
+    EditPoint { strength, ..point }
 }
 
 /// Turns a tool around: what raises lowers, what is left is right.

@@ -28,6 +28,10 @@ use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, count, linea
 pub const MAX_EDITS: usize = 20_000;
 /// Height limits of edits go so far, either way.
 pub const MOST_LIMIT_M: f64 = 20_000.0;
+/// Least and greatest width of an edit at a point, as shares of its radius.
+pub const LEAST_WIDTH: f64 = 0.02;
+/// See [`LEAST_WIDTH`].
+pub const MOST_WIDTH: f64 = 4.0;
 /// Most points of one edit.
 pub const MAX_EDIT_POINTS: usize = 1000;
 /// Greatest length of the courses of all rivers, in radii of the planet.
@@ -78,8 +82,8 @@ params! {
     } with {
         /// Tool: what it does to the ground.
         tool: Tool = Tool::default();
-        /// Points that it goes through or stands at: (latitude, longitude), or (latitude, longitude, height in metres)
-        /// for a road.
+        /// Points that it goes through or stands at: (latitude, longitude), then for a road the height in metres, then
+        /// for lines that taper the width (share of the radius) and the strength (share of the effect) there.
         points: EditPoints = EditPoints::default();
     }
 }

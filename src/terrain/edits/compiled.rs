@@ -5,7 +5,7 @@ use super::index::{Hash, Piece, chord_of};
 use super::nearest::Nearest;
 use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
-use super::path::{self, Arc, angle_of};
+use super::path::{self, Arc, Taper, angle_of};
 use super::reading::{Read, Reader};
 use super::smooth::Lattice;
 use super::stamp::{Stamp, Stamped};
@@ -37,6 +37,8 @@ pub(super) struct CompiledEdit {
     radius_rad: f64,
     /// Chord of the distance to which it reaches.
     reach_chord: f64,
+    /// Whether the edit is wider at some of its points than at others.
+    pub(super) tapers: bool,
     /// Share of the radius without fade.
     core: f64,
     raggedness: f64,
@@ -69,6 +71,9 @@ struct Fade {
     weight: f64,
     /// Derivative of the weight by the distance in radii, before the outline is ragged.
     by_plain: f64,
+    /// The distance in radii.
+    plain: f64,
+    taper: Taper,
     /// Derivative by the noise of a ragged outline.
     outline: Option<(f64, Sampled)>,
 }
@@ -164,11 +169,13 @@ impl CompiledEdit {
         };
         let heights = arcs.iter().flat_map(|arc| arc.values);
         let heights_m = heights.fold((f64::MAX, f64::MIN), |(lo, hi), h| (lo.min(h), hi.max(h)));
+        let widest = arcs.iter().flat_map(|arc| arc.widths).fold(0.0, f64::max);
         let mut compiled = Self {
+            tapers: arcs.iter().flat_map(|arc| arc.widths).any(|width| width != 1.0),
             pieces: Vec::new(),
             is_stamp: edit.tool.is_stamp(),
             radius_rad,
-            reach_chord: chord_of(radius_rad * tool.reach()),
+            reach_chord: chord_of(radius_rad * tool.reach() * widest),
             core: (1.0 - edit.softness).min(0.99),
             raggedness: edit.raggedness,
             outline: (edit.raggedness > 0.0).then(|| Noise::new(edit.seed, radius_rad)),
@@ -219,7 +226,8 @@ impl CompiledEdit {
         let piece = |(first, arcs): (usize, &[Arc])| {
             let middle = arcs.iter().map(|arc| arc.a + arc.b).sum::<DVec3>().normalize_or(arcs[0].a);
             let ends = arcs.iter().flat_map(|arc| [arc.a, arc.b]);
-            let largest = arcs.iter().map(|arc| arc.scale).fold(0.0, f64::max);
+            let size = |arc: &Arc| arc.scale * arc.widths[0].max(arc.widths[1]);
+            let largest = arcs.iter().map(size).fold(0.0, f64::max);
             let angle_rad =
                 ends.map(|end| angle_of(end.distance_squared(middle))).fold(0.0, f64::max) + reach_rad * largest;
             let angle_rad = if angle_rad > WIDEST_RAD { std::f64::consts::PI } else { angle_rad };
@@ -229,6 +237,7 @@ impl CompiledEdit {
             }
             arcs.iter().flat_map(|arc| arc.values).for_each(|value| hash.add_f64(value));
             arcs.iter().for_each(|arc| hash.add_f64(arc.scale));
+            arcs.iter().flat_map(|arc| [arc.widths, arc.strengths]).flatten().for_each(|number| hash.add_f64(number));
             if let Some(stamp) = &self.stamp {
                 let up = stamp.axes(first)[1];
                 up.to_array().into_iter().for_each(|part| hash.add_f64(part));
@@ -279,14 +288,15 @@ impl CompiledEdit {
     fn average(&self, dir: DVec3, arcs: &[u32]) -> Average {
         let mut sum = Average::default();
         for arc in arcs.iter().map(|number| &self.arcs[*number as usize]) {
-            let (chord2, inside) = arc.chord2(dir);
-            let t = angle_of(chord2) / self.radius_rad;
+            let ((chord2, inside), taper) = (arc.chord2(dir), arc.taper(dir));
+            let radius_rad = self.radius_rad * taper.width;
+            let t = angle_of(chord2) / radius_rad;
             if t >= 1.0 {
                 continue;
             }
             let foot = arc.foot(dir, inside);
             let (weight, by_t) = falloff(t, self.core);
-            let weight_by_dir = away(dir, foot.dir) * (by_t / self.radius_rad);
+            let weight_by_dir = (away(dir, foot.dir) / radius_rad - taper.width_by * (t / taper.width)) * by_t;
             let (height_m, height_by_dir) = arc.value(&foot);
             sum.weight.0 += weight;
             sum.weight.1 += weight_by_dir;
@@ -308,32 +318,38 @@ impl CompiledEdit {
 
     /// How paint fades at a direction within reach.
     fn fade(&self, dir: DVec3, nearest: &Nearest) -> Fade {
-        let plain = angle_of(nearest.chord2) / self.radius_rad;
+        let taper = self.arcs[nearest.arc as usize].taper(dir);
+        let plain = angle_of(nearest.chord2) / (self.radius_rad * taper.width);
         let ragged = self.outline.as_ref().map(|noise| noise.at(dir));
         let (stretch, by_noise) = ragged.map_or((1.0, 0.0), |noise| self.stretch(noise.value));
         let (weight, by_t) = falloff(plain * stretch, self.core);
+        let by_t = by_t * taper.strength;
         let outline = ragged.map(|noise| (by_t * plain * by_noise, noise));
-        Fade { weight, by_plain: by_t * stretch, outline }
+        Fade { weight, by_plain: by_t * stretch, plain, taper, outline }
     }
 
     /// The weight of paint at a direction within reach: 1 in the core, 0 from the radius on.
     pub(super) fn weight(&self, dir: DVec3, nearest: &Nearest) -> f64 {
-        self.fade(dir, nearest).weight
+        let fade = self.fade(dir, nearest);
+        fade.weight * fade.taper.strength
     }
 
     /// The weight of paint with its gradient, as the change of an effect. None where it is 0.
     pub(super) fn weighted(&self, dir: DVec3, nearest: &Nearest) -> Option<Effect<'_>> {
-        let Fade { weight, by_plain, outline } = self.fade(dir, nearest);
-        if weight <= 0.0 {
+        let Fade { weight, by_plain, plain, taper, outline } = self.fade(dir, nearest);
+        if weight * taper.strength <= 0.0 {
             return None;
         }
+        let radius_rad = self.radius_rad * taper.width;
         // In the core no direction leads away from the line.
         let foot = (by_plain != 0.0).then(|| self.arcs[nearest.arc as usize].foot(dir, nearest.inside).dir);
+        let outward = foot.map_or(DVec3::ZERO, |foot| away(dir, foot) * (by_plain / radius_rad));
+        let along = taper.strength_by * weight - taper.width_by * (by_plain * plain / taper.width);
         Some(Effect {
-            change_m: weight,
+            change_m: weight * taper.strength,
             by_ground: 0.0,
-            smooth: foot.map_or(DVec3::ZERO, |foot| away(dir, foot) * (by_plain / self.radius_rad)),
-            feature_rad: self.radius_rad * (1.0 - self.core).max(0.1),
+            smooth: outward + along,
+            feature_rad: radius_rad * (1.0 - self.core).max(0.1),
             ground: DVec3::ZERO,
             outline,
             rough: None,
@@ -341,8 +357,8 @@ impl CompiledEdit {
         })
     }
 
-    /// What the edit does at a point within reach, to ground of a height, by these of its arcs. None if nothing. `read`:
-    /// what it has read of the ground around.
+    /// What the edit does at a point within reach, to ground of a height, by these of its arcs. None if nothing.
+    /// `read`: what it has read of the ground around.
     #[inline]
     pub(super) fn effect(
         &self,
@@ -352,7 +368,8 @@ impl CompiledEdit {
         read: Option<Read>,
     ) -> Option<Effect<'_>> {
         let arc = &self.arcs[nearest.arc as usize];
-        let radius_rad = self.radius_rad * arc.scale;
+        let taper = arc.taper(dir);
+        let radius_rad = self.radius_rad * arc.scale * taper.width;
         let plain = angle_of(nearest.chord2) / radius_rad;
         if plain >= self.tool.reach() {
             return None;
@@ -399,7 +416,7 @@ impl CompiledEdit {
             side,
             scale: arc.scale,
         };
-        let mut change = self.tool.change(&at);
+        let mut change = self.tool.change(&at).times(taper.strength);
         for (level_m, above) in self.limits.into_iter().flatten() {
             change = limited(change, ground_m, level_m, above);
         }
@@ -411,7 +428,8 @@ impl CompiledEdit {
         if stays {
             return None;
         }
-        if change.change_m == 0.0 && change.by_t == 0.0 && change.by_ground == 0.0 && change.by_line == 0.0 {
+        let derivatives = [change.by_t, change.by_ground, change.by_line, change.by_strength];
+        if change.change_m == 0.0 && derivatives == [0.0; 4] {
             return None;
         }
         // Where the edit is level, no direction leads away from its line.
@@ -421,13 +439,15 @@ impl CompiledEdit {
             false if has_sides && nearest.inside => arc.leftward(dir) * side,
             false => away(dir, arc.foot(dir, nearest.inside).dir),
         };
+        let along =
+            taper.strength_by * change.by_strength - taper.width_by * (change.by_t * stretch * plain / taper.width);
         let line_by_dir = line.map_or(DVec3::ZERO, |line| line.1) * change.by_line;
         let (line_by_dir, ground) =
             if smooth.is_some() { (DVec3::ZERO, line_by_dir) } else { (line_by_dir, DVec3::ZERO) };
         Some(Effect {
             change_m: change.change_m,
             by_ground: 1.0 + change.by_ground,
-            smooth: outward * (change.by_t * stretch / radius_rad) + line_by_dir,
+            smooth: outward * (change.by_t * stretch / radius_rad) + line_by_dir + along,
             feature_rad: radius_rad * (1.0 - self.core).max(0.1),
             ground,
             outline: ragged.map(|noise| (change.by_t * plain * by_noise, noise)),
@@ -472,5 +492,6 @@ fn limited(change: Change, ground_m: f64, level_m: f64, above: bool) -> Change {
         by_t: change.by_t * by_change,
         by_noise: change.by_noise * by_change,
         by_line: change.by_line * by_change,
+        by_strength: change.by_strength * by_change,
     }
 }

@@ -22,7 +22,8 @@ pub(super) struct Sinking {
 }
 
 impl Sinking {
-    /// Calls `each` with each leaf that has pieces and holds some of the points, and with the numbers of those points. The order of leaves and of the points in a leaf is unspecified.
+    /// Calls `each` with each leaf that has pieces and holds some of the points, and with the numbers of those points.
+    /// The order of leaves and of the points in a leaf is unspecified.
     pub(super) fn each_leaf(&mut self, index: &Index, dirs: &[DVec3], mut each: impl FnMut(&Cell, &[u32])) {
         let spot = |(point, dir): (usize, &DVec3)| {
             let (face, s, t) = face_point(*dir);

@@ -104,7 +104,7 @@ impl Near {
                 let Some(arcs) = arcs.get(own.start as usize..own.end as usize) else { continue };
                 hits.clear();
                 let reach_chord2 = edit.reach_chord2();
-                let found = search.find((edit.arcs(), arcs), reach_chord2);
+                let found = search.find((edit.arcs(), arcs), edit.tapers, reach_chord2);
                 let found = found.filter(|(_, nearest)| nearest.chord2 <= reach_chord2);
                 hits.extend(found.map(|(own, nearest)| Hit { point: points[own] as usize, nearest }));
                 if !hits.is_empty() {

@@ -52,18 +52,21 @@ impl Search {
 
     /// The nearest of some arcs, given by their places among all arcs of an edit, to each point within about a squared
     /// chord of one, with the number of the point. The first of several at the same distance.
+    /// `tapers`: whether widths count; then all points are given.
     pub(super) fn find(
         &mut self,
         (all, places): (&[Arc], &[u32]),
+        tapers: bool,
         within_chord2: f64,
     ) -> impl Iterator<Item = (usize, Nearest)> {
-        self.find_with(Simd::detect(), (all, places), within_chord2)
+        self.find_with(Simd::detect(), (all, places), tapers, within_chord2)
     }
 
     fn find_with(
         &mut self,
         simd: Simd,
         (all, places): (&[Arc], &[u32]),
+        tapers: bool,
         within_chord2: f64,
     ) -> impl Iterator<Item = (usize, Nearest)> {
         let Self { count, x, y, z, order, place } = self;
@@ -71,8 +74,8 @@ impl Search {
         order.resize(x.len(), f64::MAX);
         place.clear();
         place.resize(x.len(), 0);
-        find_simd(simd, all, places, [x, y, z], order, place);
-        let most = path::order_of(within_chord2) * (1.0 + ROUNDING);
+        find_simd(simd, all, places, tapers, [x, y, z], order, place);
+        let most = if tapers { f64::INFINITY } else { path::order_of(within_chord2) * (1.0 + ROUNDING) };
         let near = order.iter().take(*count).enumerate().filter(move |(_, order)| **order <= most);
         near.map(|(point, _)| {
             let (chord2, inside) = all[place[point] as usize].chord2(DVec3::new(x[point], y[point], z[point]));
@@ -82,7 +85,7 @@ impl Search {
 }
 
 #[inline(always)]
-fn find_body(all: &[Arc], places: &[u32], points: [&[f64]; 3], order: &mut [f64], nearest: &mut [u32]) {
+fn find_body(all: &[Arc], places: &[u32], tapers: bool, points: [&[f64]; 3], order: &mut [f64], nearest: &mut [u32]) {
     let count = order.len();
     let (Some(x), Some(y), Some(z)) = (points[0].get(..count), points[1].get(..count), points[2].get(..count)) else {
         return;
@@ -91,6 +94,16 @@ fn find_body(all: &[Arc], places: &[u32], points: [&[f64]; 3], order: &mut [f64]
     for &place in places {
         let Some(arc) = all.get(place as usize) else { continue };
         let tangents = arc.tangents();
+        // Two loops, so that each is vectorised.
+        if tapers {
+            for i in 0..count {
+                let new = arc.tapered_order(DVec3::new(x[i], y[i], z[i]), tangents);
+                let is_nearer = new < order[i];
+                order[i] = if is_nearer { new } else { order[i] };
+                nearest[i] = if is_nearer { place } else { nearest[i] };
+            }
+            continue;
+        }
         for i in 0..count {
             let new = arc.order(DVec3::new(x[i], y[i], z[i]), tangents);
             let is_nearer = new < order[i];
@@ -99,7 +112,7 @@ fn find_body(all: &[Arc], places: &[u32], points: [&[f64]; 3], order: &mut [f64]
         }
     }
 }
-for_each_simd!(fn find_simd(all: &[Arc], places: &[u32], points: [&[f64]; 3], order: &mut [f64], nearest: &mut [u32]) = find_body);
+for_each_simd!(fn find_simd(all: &[Arc], places: &[u32], tapers: bool, points: [&[f64]; 3], order: &mut [f64], nearest: &mut [u32]) = find_body);
 
 #[cfg(test)]
 mod tests {
@@ -112,7 +125,7 @@ mod tests {
             .map(|k| EditPoint {
                 latitude_deg: 80.0 + f64::from(k % 5),
                 longitude_deg: 25.0 * f64::from(k),
-                height_m: 0.0,
+                ..EditPoint::default()
             })
             .collect();
         let all = super::super::path::arcs(&points, 0.05);
@@ -122,7 +135,7 @@ mod tests {
         let mut search = Search::default();
         search.refill(dirs.iter().copied());
         let expected: Vec<Nearest> =
-            search.find_with(Simd::Baseline, (&all, &places), 4.0).map(|(_, nearest)| nearest).collect();
+            search.find_with(Simd::Baseline, (&all, &places), false, 4.0).map(|(_, nearest)| nearest).collect();
         assert_eq!(expected.len(), dirs.len());
         for (dir, found) in dirs.iter().zip(&expected) {
             let least = places.iter().map(|place| all[*place as usize].chord2(*dir).0).fold(f64::MAX, f64::min);
@@ -132,7 +145,7 @@ mod tests {
         }
         for simd in Simd::available() {
             for within_chord2 in [4.0, 0.7, 0.01] {
-                let found: Vec<_> = search.find_with(simd, (&all, &places), within_chord2).collect();
+                let found: Vec<_> = search.find_with(simd, (&all, &places), false, within_chord2).collect();
                 let near = expected.iter().copied().enumerate().filter(|(_, near)| near.chord2 <= within_chord2);
                 assert_eq!(found, near.collect::<Vec<_>>(), "{}", simd.name());
             }

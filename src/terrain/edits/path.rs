@@ -20,12 +20,26 @@ pub(super) struct Arc {
     normal: DVec3,
     /// At its ends: heights of a road, the slip of a fault, the share of a coast.
     pub(super) values: [f64; 2],
+    /// At its ends: the width, as a share of the radius, and the share of the effect.
+    pub(super) widths: [f64; 2],
+    pub(super) strengths: [f64; 2],
     /// Size of a stamp's copy relative to the stamp.
     pub(super) scale: f64,
     /// By how much a stamp's copy is turned, -1 to 1.
     pub(super) turned: f64,
     /// Whether it is a mirror image.
     pub(super) flipped: bool,
+}
+
+/// What an arc is at a point, with the gradients by the direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Taper {
+    /// Share of the radius.
+    pub(super) width: f64,
+    /// Share of the effect.
+    pub(super) strength: f64,
+    pub(super) width_by: DVec3,
+    pub(super) strength_by: DVec3,
 }
 
 /// The place of an arc that is nearest to a point.
@@ -44,7 +58,8 @@ impl Arc {
         let normal = a.cross(b - a);
         let length = normal.length();
         let normal = if length > 0.0 { normal / length } else { DVec3::ZERO };
-        Self { a, b, normal, values, scale: 1.0, turned: 0.0, flipped: false }
+        let ([widths, strengths], scale) = ([[1.0; 2]; 2], 1.0);
+        Self { a, b, normal, values, widths, strengths, scale, turned: 0.0, flipped: false }
     }
 
     /// The nearest place to a unit direction: its squared chord, and whether it lies between the ends.
@@ -68,6 +83,40 @@ impl Arc {
         let off = from_a.dot(self.normal);
         let end = from_a.length_squared().min(dir.distance_squared(self.b));
         if self.is_beside(dir, from_a, tangents) { off * off } else { order_of(end) }
+    }
+
+    /// As [`Arc::order`], for arcs that taper: distances count in widths.
+    #[inline(always)]
+    pub(super) fn tapered_order(&self, dir: DVec3, tangents: [DVec3; 2]) -> f64 {
+        let [from, to] = self.widths;
+        let width = from + (to - from) * self.share(dir);
+        self.order(dir, tangents) / (width * width)
+    }
+
+    /// How far along the arc a direction lies: 0 at its beginning and before it, 1 at its end and beyond.
+    #[inline(always)]
+    fn share(&self, dir: DVec3) -> f64 {
+        let along = self.b - self.a;
+        ((dir - self.a).dot(along) / along.length_squared().max(1e-30)).clamp(0.0, 1.0)
+    }
+
+    /// Its width and its strength at a direction.
+    pub(super) fn taper(&self, dir: DVec3) -> Taper {
+        let ([w0, w1], [s0, s1]) = (self.widths, self.strengths);
+        if w0 == w1 && s0 == s1 {
+            return Taper { width: w0, strength: s0, width_by: DVec3::ZERO, strength_by: DVec3::ZERO };
+        }
+        let (share, along) = (self.share(dir), self.b - self.a);
+        let by_dir = match share > 0.0 && share < 1.0 {
+            true => (along - dir * dir.dot(along)) / along.length_squared(),
+            false => DVec3::ZERO,
+        };
+        Taper {
+            width: w0 + (w1 - w0) * share,
+            strength: s0 + (s1 - s0) * share,
+            width_by: by_dir * (w1 - w0),
+            strength_by: by_dir * (s1 - s0),
+        }
     }
 
     /// The directions of the arc at its ends.
@@ -140,9 +189,10 @@ pub(super) fn places(edit: &GroundEdit, radius_m: f64) -> Vec<Arc> {
     let mut places = Vec::new();
     for (number, point) in edit.points.0.iter().enumerate() {
         let middle = point.direction();
+        let (widths, strengths) = ([point.width; 2], [point.strength; 2]);
         for copy in 0..edit.copies.max(1) {
             if edit.copies <= 1 {
-                places.push(Arc::new(middle, middle, [0.0; 2]));
+                places.push(Arc { widths, strengths, ..Arc::new(middle, middle, [0.0; 2]) });
                 continue;
             }
             let seed = mix(u64::from(edit.seed) << 32 | u64::from(copy)).wrapping_add(mix(number as u64));
@@ -155,7 +205,7 @@ pub(super) fn places(edit: &GroundEdit, radius_m: f64) -> Vec<Arc> {
             let least = edit.smallest;
             let scale = least / (1.0 - random(3) * (1.0 - least * least)).sqrt();
             let turned = 2.0 * random(4) - 1.0;
-            places.push(Arc { scale, turned, ..Arc::new(at, at, [0.0; 2]) });
+            places.push(Arc { scale, turned, widths, strengths, ..Arc::new(at, at, [0.0; 2]) });
         }
     }
     places
@@ -163,10 +213,15 @@ pub(super) fn places(edit: &GroundEdit, radius_m: f64) -> Vec<Arc> {
 
 /// The arcs of the curve through points, for an edit of this radius.
 pub(super) fn arcs(points: &[EditPoint], radius_rad: f64) -> Vec<Arc> {
-    let mut places: Vec<(DVec3, f64)> = points.iter().map(|point| (point.direction(), point.height_m)).collect();
+    let numbers = |point: &EditPoint| [point.height_m, point.width, point.strength];
+    let mut places: Vec<(DVec3, [f64; 3])> = points.iter().map(|point| (point.direction(), numbers(point))).collect();
     places.dedup_by(|a, b| a.0 == b.0);
-    if let [(at, height_m)] = places[..] {
-        return vec![Arc::new(at, at, [height_m; 2])];
+    let arc = |a: DVec3, b: DVec3, [from, to]: [[f64; 3]; 2]| {
+        let [heights_m, widths, strengths] = std::array::from_fn(|i| [from[i], to[i]]);
+        Arc { widths, strengths, ..Arc::new(a, b, heights_m) }
+    };
+    if let [(at, numbers)] = places[..] {
+        return vec![arc(at, at, [numbers; 2])];
     }
     let length = |i: usize| places[i].0.distance(places[i + 1].0);
     // The direction of the curve at a point, per length of chord.
@@ -177,7 +232,7 @@ pub(super) fn arcs(points: &[EditPoint], radius_rad: f64) -> Vec<Arc> {
     };
     let mut arcs = Vec::new();
     for i in 0..places.len().saturating_sub(1) {
-        let ((p, from_m), (q, to_m)) = (places[i], places[i + 1]);
+        let ((p, from_numbers), (q, to_numbers)) = (places[i], places[i + 1]);
         let (from, to) = (tangent(i) * length(i), tangent(i + 1) * length(i));
         let at = |u: f64| {
             let (u2, u3) = (u * u, u * u * u);
@@ -193,24 +248,29 @@ pub(super) fn arcs(points: &[EditPoint], radius_rad: f64) -> Vec<Arc> {
         for k in 1..=count {
             let share = |k: u32| f64::from(k) / f64::from(count);
             let next = if k == count { q } else { at(share(k)) };
-            let height_m = |u: f64| from_m + (to_m - from_m) * u;
-            arcs.push(Arc::new(last, next, [height_m(share(k - 1)), height_m(share(k))]));
+            let at = |u: f64| std::array::from_fn(|i| from_numbers[i] + (to_numbers[i] - from_numbers[i]) * u);
+            arcs.push(arc(last, next, [at(share(k - 1)), at(share(k))]));
             last = next;
         }
     }
     arcs
 }
 
-/// Adds the images of arcs by symmetry, each behind the other. `has_sides`: what is on the left of a line stays there in
-/// its mirror image.
+/// Adds the images of arcs by symmetry, each behind the other. `has_sides`: what is on the left of a line stays there
+/// in its mirror image.
 pub(super) fn add_images(arcs: &mut Vec<Arc>, edit: &GroundEdit, has_sides: bool) {
     let own = arcs.clone();
     for image in edit.images() {
         let begin = arcs.len();
         arcs.extend(own.iter().map(|arc| {
             let ([a, b], [from, to]) = ([arc.a, arc.b].map(|end| image.of(end)), arc.values);
-            let turns_around = has_sides && image.mirrored;
-            let new = if turns_around { Arc::new(b, a, [to, from]) } else { Arc::new(a, b, [from, to]) };
+            let new = if has_sides && image.mirrored {
+                let around = |[from, to]: [f64; 2]| [to, from];
+                let (widths, strengths) = (around(arc.widths), around(arc.strengths));
+                Arc { widths, strengths, ..Arc::new(b, a, [to, from]) }
+            } else {
+                Arc { widths: arc.widths, strengths: arc.strengths, ..Arc::new(a, b, [from, to]) }
+            };
             Arc { scale: arc.scale, turned: arc.turned, flipped: image.mirrored, ..new }
         }));
         if has_sides && image.mirrored {

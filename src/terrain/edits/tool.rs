@@ -55,6 +55,22 @@ pub(super) struct Change {
     pub(super) by_t: f64,
     pub(super) by_noise: f64,
     pub(super) by_line: f64,
+    /// By the share of the effect at a point of the line.
+    pub(super) by_strength: f64,
+}
+
+impl Change {
+    /// A share of the change.
+    pub(super) fn times(self, strength: f64) -> Self {
+        Self {
+            change_m: self.change_m * strength,
+            by_ground: self.by_ground * strength,
+            by_t: self.by_t * strength,
+            by_noise: self.by_noise * strength,
+            by_line: self.by_line * strength,
+            by_strength: self.change_m,
+        }
+    }
 }
 
 /// A tool, compiled.

@@ -5,8 +5,8 @@
 //! another pane makes that one active: the two change roles, so that every tool works in every pane. Panes that are
 //! *linked* share one camera.
 //!
-//! - `pane`: one view beside the active one; `map`: maps of the globe, flat or around a pole; `bar`: the menu of a pane;
-//!   `kept`: the panes from one start to the next
+//! - `pane`: one view beside the active one; `map`: maps of the globe, flat or around a pole
+//! - `bar`: the menu of a pane; `kept`: the panes from one start to the next
 
 mod bar;
 mod kept;
