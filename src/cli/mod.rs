@@ -34,8 +34,8 @@ mod tiles;
 
 use crate::planet::Planet;
 use crate::planet::picture::is_contained;
+use crate::planet::printable::printable;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
-use std::borrow::Cow;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -158,19 +158,6 @@ fn load(path: &Path) -> Result<Planet, Failure> {
 /// Prints a line on standard error.
 fn tell(line: &str) {
     let _ = writeln!(io::stderr(), "{}", printable(line));
-}
-
-/// A text with escapes in the place of control characters: names of files can hold commands for the terminal.
-fn printable(text: &str) -> Cow<'_, str> {
-    let is_control = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
-    if !text.contains(is_control) {
-        return text.into();
-    }
-    let mut printable = String::with_capacity(text.len());
-    for c in text.chars() {
-        if is_control(c) { printable.extend(c.escape_default()) } else { printable.push(c) }
-    }
-    printable.into()
 }
 
 /// Prints a line on standard output. It is no failure if the reader has stopped reading (`tellus ... | head -1`).

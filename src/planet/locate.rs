@@ -5,6 +5,7 @@
 //! with its own stack, so deep nesting cannot overflow the thread's stack. It never fails: of a broken text it reports
 //! the part before the break.
 
+use super::printable::printable;
 use std::collections::HashMap;
 
 /// One step of a path in the text.
@@ -354,12 +355,9 @@ pub(crate) fn excerpt(text: &str, offset: usize) -> String {
     }
     let token = text.get(offset..tokens.at).unwrap_or_default();
     let line = token.lines().next().unwrap_or_default();
-    let turns = |c: char| ('\u{202a}'..='\u{202e}').contains(&c) || ('\u{2066}'..='\u{2069}').contains(&c);
-    let is_plain = |c: char| !c.is_control() && !turns(c);
-    let plain = |c: char| -> String { if is_plain(c) { c.into() } else { c.escape_default().collect() } };
-    let shown: String = line.chars().take(MOST_CHARS).map(plain).collect();
+    let shown: String = line.chars().take(MOST_CHARS).collect();
     let is_whole = line.len() == token.len() && line.chars().count() <= MOST_CHARS;
-    format!("`{shown}{}`", if is_whole { "" } else { "…" })
+    format!("`{}{}`", printable(&shown).replace('\t', "\\t"), if is_whole { "" } else { "…" })
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@
 //!   errors, `locate` finds lines and columns, `migrate` reads old versions; [`snippet`] reads and writes single parts
 //! - `giant`: gas giants, and giants to start from
 //! - `rings`: rings of a planet, and rings to start from
+//! - `printable`: text of strangers, as it may be shown
 //! - `root`: what a whole file holds: a planet or a system
 //! - [`structure`]: plates, weather and rivers of a preset
 //! - [`edits`]: changes of the ground at a place, made by hand
@@ -44,6 +45,7 @@ pub mod param;
 pub mod parts;
 pub mod picture;
 mod pictures;
+pub(crate) mod printable;
 pub(crate) mod problem;
 pub mod random;
 mod rings;
