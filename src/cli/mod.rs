@@ -102,8 +102,11 @@ pub fn run() -> ExitCode {
     let cli = match Cli::command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
-            // Help goes to standard output. It is no failure if nobody reads it.
-            let _ = error.print();
+            // Help goes to standard output. It is no failure if nobody reads it. Errors repeat what was typed.
+            let _ = match error.use_stderr() {
+                true => write!(io::stderr(), "{}", printable(&error.render().to_string())),
+                false => error.print(),
+            };
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };

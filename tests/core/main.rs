@@ -47,4 +47,5 @@ mod support {
     pub mod dice;
     pub mod edits;
     pub mod layered;
+    pub mod png;
 }

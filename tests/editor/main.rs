@@ -50,6 +50,8 @@ mod panes;
 mod photo;
 mod place;
 mod plates;
+#[path = "../support/png.rs"]
+mod png;
 mod sculpt;
 mod system;
 mod text;

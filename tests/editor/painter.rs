@@ -3,13 +3,16 @@
 use crate::app::{
     Editor, canvas, click, drag_row_below, planet, point_at_planet, send, undo_label, undo_len, until, wait_for_picture,
 };
+use crate::dice::Dice;
+use crate::png::{changed_png, pick};
 use crate::press;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
 use std::sync::Arc;
 use tellus::editor::command::Command;
-use tellus::planet::Biomes;
+use tellus::editor::painter::table_png;
+use tellus::planet::{Biomes, STARTING_TABLES};
 use tellus::terrain::Terrain;
 
 /// An editor on the biomes tab, without a picture; file dialogs give these answers.
@@ -319,4 +322,26 @@ fn the_painter_looks_as_it_did() {
     let panel = image::imageops::crop_imm(&picture, left, 0, picture.width() - left, height).to_image();
     let options = egui_kittest::SnapshotOptions::new().threshold(1.0).max_failed_pixels(200);
     egui_kittest::image_snapshot_options(&panel, "painter", &options);
+}
+
+/// Pictures of strangers: read or refused, never more.
+#[test]
+fn ten_thousand_changed_pictures_of_tables_are_read_or_refused() {
+    let mut dice = Dice(11);
+    let tables = STARTING_TABLES.iter().map(|start| start.biomes().unwrap());
+    let tables: Vec<(Biomes, Vec<u8>)> =
+        tables.map(|biomes| (biomes.clone(), table_png::encode(&biomes).unwrap())).collect();
+    let mut read = 0;
+    for _ in 0..10_000 {
+        let (biomes, png) = &tables[pick(&mut dice, tables.len())];
+        match table_png::decode(&changed_png(png, &mut dice), biomes) {
+            Ok(imported) => {
+                let rows = imported.table.rows();
+                assert!(rows.iter().all(|row| row.chars().all(|key| biomes.index_of(key).is_some())));
+                read += 1;
+            }
+            Err(why) => assert!(!why.is_empty() && why.len() < 300 && !why.contains(char::is_control), "{why}"),
+        }
+    }
+    assert!((50..9_900).contains(&read), "{read}");
 }

@@ -3,8 +3,11 @@
 
 use crate::planet::{Biomes, Table};
 use crate::render::srgb_from_linear;
-use image::{ImageFormat, ImageReader, Rgba, RgbaImage};
+use image::{ImageFormat, ImageReader, Limits, Rgba, RgbaImage};
 use std::io::Cursor;
+
+/// Memory for reading a picture, bytes.
+const MOST_BYTES: u64 = 16 << 20;
 
 /// A table read from a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,7 +59,10 @@ pub fn decode(bytes: &[u8], biomes: &Biomes) -> Result<Imported, String> {
             sides.end()
         ));
     }
-    reader.no_limits();
+    // Chunks besides the pixels can grow to any size as well.
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_BYTES);
+    reader.limits(limits);
     let picture = reader.decode().map_err(|error| format!("the picture cannot be read: {error}"))?.to_rgba8();
     let palette: Vec<(char, [u8; 3])> = biomes.palette.iter().map(|biome| (biome.key, srgb(biome.color))).collect();
     let Some(&(first, _)) = palette.first() else {
