@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// Longest preset that is read, in bytes: about that of one with every list at its limit and strokes of a usual length.
-pub const MAX_FILE_BYTES: u64 = 16 << 20;
+/// Longest preset that is read, in bytes: more than that of one with every list at its limit.
+pub const MAX_FILE_BYTES: u64 = 48 << 20;
 
 /// How names of unfinished files begin and end.
 const UNFINISHED: &str = ".tellus-";
@@ -124,7 +124,14 @@ impl Planet {
         if let Some((place, message)) = validate::problems(&planet).into_iter().next() {
             return Err(failed(format!("the planet is not valid and was not saved: {place}: {message}")));
         }
-        write_atomically(path, planet.to_text().as_bytes()).map_err(failed)
+        let text = planet.to_text();
+        if text.len() as u64 > MAX_FILE_BYTES {
+            let most = MAX_FILE_BYTES >> 20;
+            return Err(failed(format!(
+                "the preset would be longer than {most} MiB and was not saved; bake edits into a picture"
+            )));
+        }
+        write_atomically(path, text.as_bytes()).map_err(failed)
     }
 }
 

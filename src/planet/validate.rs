@@ -2,7 +2,9 @@
 //!
 //! Ranges come from the description of each parameter. Rules that involve several parameters are here.
 
-use super::edits::{self, LEAST_WIDTH, MAX_ALL_COPIES, MAX_EDIT_POINTS, MAX_EDITS, MOST_COURSES_RADII, MOST_WIDTH};
+use super::edits::{
+    self, LEAST_WIDTH, MAX_ALL_COPIES, MAX_ALL_POINTS, MAX_EDIT_POINTS, MAX_EDITS, MOST_COURSES_RADII, MOST_WIDTH,
+};
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Params as _, Segment};
 use super::structure::MAX_PLATES;
@@ -107,6 +109,8 @@ fn limits(planet: &Planet, found: &mut Found) {
     };
     limit(ParamPath::default().join("layers"), "layers", planet.layers.len(), MAX_LAYERS);
     limit(ParamPath::default().join("edits"), "edits", planet.edits.len(), MAX_EDITS);
+    let all_points = planet.edits.iter().map(|edit| edit.points.0.len()).sum();
+    limit(ParamPath::default().join("edits"), "points of all edits", all_points, MAX_ALL_POINTS);
     limit(biomes_path("palette"), "biomes", planet.biomes.palette.len(), MAX_BIOMES);
     let bookmarks = planet.editor.as_ref().map_or(0, |editor| editor.bookmarks.len());
     let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("bookmarks")]);

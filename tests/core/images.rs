@@ -5,7 +5,10 @@ use crate::stamp::HILLS;
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::planet::Planet;
-use tellus::planet::edits::{Flatten, GroundEdit, PictureStamp, Raise, Tool};
+use tellus::planet::edits::{
+    EditPoint, Flatten, GroundEdit, Hydraulic, MAX_ALL_POINTS, MAX_EDITS, PictureStamp, Raise, Tool,
+};
+use tellus::planet::file::MAX_FILE_BYTES;
 use tellus::terrain::Terrain;
 
 /// Without noise, an image has the ground of its edit, at a place that is turned and mirrored as it is.
@@ -91,4 +94,30 @@ fn a_line_tapers_in_width_and_in_strength_and_files_keep_both() {
         let why = Planet::from_text("p.ron", &wrong).unwrap_err().to_string();
         assert!(why.contains(told), "{why}");
     }
+}
+
+/// What may be saved can be opened again.
+#[test]
+fn the_file_of_all_edits_that_a_planet_may_have_is_not_too_long() {
+    let point = EditPoint {
+        latitude_deg: -12.345_678_9,
+        longitude_deg: -123.456_789_1,
+        height_m: 0.0,
+        width: 0.415,
+        strength: 0.415,
+    };
+    let long = |points: usize| GroundEdit {
+        name: "A name as long as names of edits may be, or near".to_owned(),
+        points: vec![point; points].into_iter().collect(),
+        raggedness: 0.123_456_789,
+        ..GroundEdit::of(Tool::Hydraulic(Hydraulic::default()))
+    };
+    let count = MAX_ALL_POINTS / MAX_EDITS;
+    let mut planet = planet(0.0, vec![long(count); MAX_EDITS]);
+    assert!(tellus::planet::validate::problems(&planet).is_empty());
+    let length = planet.to_text().len() as u64;
+    assert!(length < MAX_FILE_BYTES && length > MAX_FILE_BYTES / 3, "{length}");
+    planet.edits.get_mut(0).unwrap().points.0.push(point);
+    let (path, why) = tellus::planet::validate::problems(&planet).remove(0);
+    assert!(path.to_string() == "edits" && why.contains("500001 points of all edits are too many"), "{why}");
 }

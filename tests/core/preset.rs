@@ -303,9 +303,9 @@ fn odd_but_valid_texts_are_read() {
 fn what_is_too_large_or_too_deep_is_refused_and_harmless() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("large.ron");
-    std::fs::write(&path, format!("(version: 3) // {}", "x".repeat(16 << 20))).unwrap();
+    std::fs::write(&path, format!("(version: 3) // {}", "x".repeat(48 << 20))).unwrap();
     let error = Planet::load(&path).unwrap_err().to_string();
-    assert!(error.ends_with("large.ron: the file is longer than 16384 KiB; a preset is much shorter"), "{error}");
+    assert!(error.ends_with("large.ron: the file is longer than 49152 KiB; a preset is much shorter"), "{error}");
 
     std::fs::write(&path, b"(version: 3,\n name: \"\xff\")").unwrap();
     let error = Planet::load(&path).unwrap_err().to_string();
