@@ -43,14 +43,25 @@ fn share_beside(at_km: vec3f, towards: vec3f, aside_km: f32) -> vec3f {
     return share;
 }
 
-// Share of the active sun's light that reaches the point `at_km` from the centre of the body.
-fn sun_share(at_km: vec3f) -> vec3f {
-    if ALONE { return vec3f(1.0); }
-    let towards = normalize(active_sun.dir - at_km * active_sun.per_km);
-    var share = share_beside(at_km, towards, 0.0);
-    if body.ring_count > 0u { share *= through_rings(at_km, towards); }
-    return share;
+// Shares of the active sun's light that reach a point.
+struct Shares {
+    // Past other bodies
+    past_bodies: vec3f,
+    // Past them and through the rings
+    all: vec3f,
 }
+
+// Shares at the point `at_km` from the centre of the body.
+fn sun_shares(at_km: vec3f) -> Shares {
+    if ALONE { return Shares(vec3f(1.0), vec3f(1.0)); }
+    let towards = normalize(active_sun.dir - at_km * active_sun.per_km);
+    let past_bodies = share_beside(at_km, towards, 0.0);
+    if body.ring_count == 0u { return Shares(past_bodies, past_bodies); }
+    return Shares(past_bodies, past_bodies * through_rings(at_km, towards));
+}
+
+// Share of the active sun's light that reaches the point `at_km` from the centre of the body.
+fn sun_share(at_km: vec3f) -> vec3f { return sun_shares(at_km).all; }
 
 // Distances of the air that lights the air in a shadow, km.
 const LIT_FROM_KM: array<f32, 4> = array<f32, 4>(30.0, 80.0, 160.0, 320.0);
@@ -60,13 +71,14 @@ const HORIZON_BRIGHTER: f32 = 3.0;
 // Share of the light of the sky around the point `at_km` that is left. The air beyond a shadow scatters light into it,
 // so that totality is a twilight (Shaw, Sky brightness and polarization during the 1973 African eclipse, 1975). Air at
 // a distance stands as high over the horizon as its scale height is seen from there, and its light is dimmed on its
-// way. `share`: of the sun's light at the point. `extinction`: there, per km; rays climb out of it. `dimness`: what
-// else dims the light of air at a distance, as a factor and as one on the height of that air.
-fn share_of_sky(at_km: vec3f, share: vec3f, extinction: vec3f, dimness: vec2f) -> vec3f {
+// way. `shares`: at the point. `extinction`: there, per km; rays climb out of it. `dimness`: what else dims the light of
+// air at a distance, as a factor and as one on the height of that air.
+fn share_of_sky(at_km: vec3f, shares: Shares, extinction: vec3f, dimness: vec2f) -> vec3f {
+    let share = shares.all;
     if ALONE || body.occluder_count == 0u || body.air_height_km <= 0.0 { return share; }
     if min(share.r, min(share.g, share.b)) >= 0.999 { return share; }
     let towards = normalize(active_sun.dir - at_km * active_sun.per_km);
-    var last = share_beside(at_km, towards, 0.0);
+    var last = shares.past_bodies;
     var sum = share;
     for (var i = 0u; i < 4u; i++) {
         let from_km = LIT_FROM_KM[i];
@@ -85,8 +97,8 @@ const SCATTERED_AGAIN: f32 = 0.15;
 // As `use_sun`, with the light that reaches the point `at_km` from the centre of the body.
 fn use_sun_at(index: u32, at_km: vec3f) {
     use_sun(index);
-    let share = sun_share(at_km);
+    let shares = sun_shares(at_km);
     let low = body.rayleigh_per_km + body.mie_extinction_per_km;
-    irradiance_of_sky *= share_of_sky(at_km, share, low, vec2f(SCATTERED_AGAIN, 1.0));
-    active_sun.irradiance *= share;
+    irradiance_of_sky *= share_of_sky(at_km, shares, low, vec2f(SCATTERED_AGAIN, 1.0));
+    active_sun.irradiance *= shares.all;
 }

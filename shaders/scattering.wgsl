@@ -56,11 +56,11 @@ fn air_light(
             again = scattered_again(end, clamp(cosines.y, -1.0, 1.0), clamp(cosines.x, -1.0, 1.0), cosine);
         }
         let at_km = up * (radius + h) + dir * t;
-        let share = sun_share(at_km);
-        var shine = (air.rayleigh + air.mie) * again * share_of_sky(at_km, share, air.extinction, vec2f(1.0, 0.0));
+        let shares = sun_shares(at_km);
+        var shine = (air.rayleigh + air.mie) * again * share_of_sky(at_km, shares, air.extinction, vec2f(1.0, 0.0));
         if visible > 0.0 {
             let direct = air.rayleigh * phase_rayleigh + air.mie * phase_mie;
-            shine += direct * clear_transmittance(height, sun_mu) * visible * share;
+            shine += direct * clear_transmittance(height, sun_mu) * visible * shares.all;
         }
         let behind = saturate1((t1 - cloud_at) / max(length_km, 1e-6));
         let inside = out.transmittance * shine * shining_length(air.extinction, length_km);
