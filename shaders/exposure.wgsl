@@ -6,6 +6,8 @@ struct Exposure {
     // Factor on radiance, and the same factor in stops
     factor: f32,
     ev: f32,
+    // Stops by which the brightest part of the picture exceeds white (tone.wgsl)
+    beyond_ev: f32,
 }
 
 @group(0) @binding(0) var<storage, read_write> bins: array<u32, COUNTERS>;
@@ -36,12 +38,16 @@ const DARKEST_MEAN_EV: f32 = -3.4;
 // Broader highlights, such as the sky around a low sun, never exceed this level.
 const BROAD_HIGHLIGHTS: f32 = 0.12;
 const BROAD_HIGHLIGHT_EV: f32 = -0.5;
-// The glow around a sun, in haze or at dusk, must keep its colours: the level in stops that no more than this share of
-// the picture exceeds as warm sky, and the share of the excess that exposure takes back, so that the ground before it
-// stays readable. Sky has little weight elsewhere: before dark ground it would burn out.
-const WARM_SHARE: f32 = 0.07;
-const WARM_EV: f32 = -1.0;
-const FOLLOWED_WARM: f32 = 0.75;
+// The share of the picture, sky or ground, that may be beyond white, and the level of white in stops. Of what is
+// brighter, exposure takes back a share, and for the rest the tone curve gets room.
+const BEYOND: f32 = 0.02;
+const WHITE_EV: f32 = 0.0;
+const FOLLOWED_BEYOND: f32 = 0.45;
+const MOST_BEYOND_EV: f32 = 5.0;
+// What the highlights of the sky take from the exposure, and what of that the ground gets back where there is some:
+// the tone curve has room for such a sky.
+const GIVEN_BACK: f32 = 0.25;
+const GROUND_SHARE: vec2f = vec2f(0.05, 0.3);
 const LIFTED_HIGHLIGHT: f32 = 0.3;
 const LIFTED_SNOW: f32 = 1.0;
 // Share of white pixels at which the lift changes from that for ground to that for snow.
@@ -81,6 +87,19 @@ fn corrected(mean_ev: f32) -> f32 {
     return ground * FOLLOWED_DARK_GROUND + dusk * FOLLOWED_DUSK + max(off - NIGHT_EV, 0.0) * FOLLOWED_NIGHT;
 }
 
+// The exposure that the ground alone would have, from the one before highlights limit it; no more than `LEAST_EV` where
+// there is hardly any. `pixels`: count of all.
+fn of_ground(unlimited_ev: f32, pixels: f32) -> f32 {
+    var counted = 0.0;
+    for (var i = 0u; i < METER_BINS; i++) { counted += f32(bins[GROUND + i]); }
+    let top = stops(bin_below(BEYOND * pixels, 0u, ALL));
+    let highlight = stops(bin_below(HIGHLIGHTS * counted, 0u, GROUND));
+    let broad = stops(bin_below(BROAD_HIGHLIGHTS * counted, 0u, GROUND));
+    let above = max(highlight + unlimited_ev - HIGHLIGHT_EV, 0.0);
+    let ev = min(unlimited_ev - FOLLOWED_HIGHLIGHT * above, BROAD_HIGHLIGHT_EV - broad);
+    return mix(LEAST_EV, ev, smoothstep(GROUND_SHARE.x, GROUND_SHARE.y, counted / pixels));
+}
+
 @compute @workgroup_size(1)
 fn compute() {
     var all = 0.0;
@@ -101,12 +120,15 @@ fn compute() {
         weight += share;
         passed += here;
     }
+    let pixels = WHOLE * f32(step.size_px.x * step.size_px.y) / f32(METER_STRIDE * METER_STRIDE);
+    let top = stops(bin_below(BEYOND * pixels, 0u, ALL));
     let highlight = stops(bin_below(HIGHLIGHTS * counted, first, 0u));
     let broad = stops(bin_below(BROAD_HIGHLIGHTS * counted, first, 0u));
     var ev = 0.0;
     if weight > 0.0 {
         let mean = sum / weight;
         ev = corrected(mean);
+        let unlimited = ev;
         let above = highlight + ev - HIGHLIGHT_EV;
         if above > 0.0 {
             ev = max(ev - FOLLOWED_HIGHLIGHT * above, min(ev, DARKEST_MEAN_EV - mean));
@@ -116,12 +138,14 @@ fn compute() {
             ev += share * min(-above, WIDEST_LIFT_EV);
         }
         ev = min(ev, BROAD_HIGHLIGHT_EV - broad);
-        let pixels = f32(step.size_px.x * step.size_px.y) / f32(METER_STRIDE * METER_STRIDE);
-        let warm = stops(bin_below(WARM_SHARE * WHOLE * pixels, 0u, WARM));
-        ev -= FOLLOWED_WARM * max(warm + ev - WARM_EV, 0.0);
+        let ground_ev = of_ground(unlimited, pixels);
+        ev += GIVEN_BACK * max(ground_ev - ev, 0.0);
+        ev -= FOLLOWED_BEYOND * max(top + ev - WHITE_EV, 0.0);
         let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
         ev = clamp(ev, LEAST_EV, most);
     }
+    let beyond_ev = clamp(top + ev - WHITE_EV, 0.0, MOST_BEYOND_EV);
+    exposure.beyond_ev += clamp((beyond_ev - exposure.beyond_ev) * step.share, -step.most_ev, step.most_ev);
     exposure.ev += clamp((ev - exposure.ev) * step.share, -step.most_ev, step.most_ev);
     exposure.factor = exp2(exposure.ev);
     for (var i = 0u; i < COUNTERS; i++) { bins[i] = 0u; }

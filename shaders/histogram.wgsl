@@ -8,8 +8,6 @@
 // White pixels (sunlit snow and clouds): least luminance, and least ratio of the weakest to the strongest channel.
 const WHITE_LUMINANCE: f32 = 0.28;
 const WHITE_SHARE: f32 = 0.65;
-// Ratio of blue to red from which sky counts as warm, and below which it does in full: cloud at noon is white.
-const WARM_BELOW: vec2f = vec2f(0.8, 0.6);
 
 var<workgroup> here: array<atomic<u32>, COUNTERS>;
 
@@ -29,9 +27,9 @@ fn compute(@builtin(global_invocation_id) at: vec3u, @builtin(local_invocation_i
         if bin >= 0.0 {
             let number = min(u32(bin), METER_BINS - 1u);
             atomicAdd(&here[number], counts);
+            atomicAdd(&here[ALL + number], u32(WHOLE));
             // Only sky has less than the whole weight.
-            let warm = 1.0 - smoothstep(WARM_BELOW.y, WARM_BELOW.x, light.b / max(light.r, 1e-12));
-            if light.a < 1.0 && warm > 0.0 { atomicAdd(&here[WARM + number], u32(warm * WHOLE)); }
+            if light.a >= 1.0 { atomicAdd(&here[GROUND + number], u32(WHOLE)); }
         }
         let weakest = min(light.r, min(light.g, light.b));
         if luminance(light.rgb) > WHITE_LUMINANCE && weakest > WHITE_SHARE * strongest {

@@ -1,12 +1,14 @@
-// The histogram that histogram.wgsl fills and exposure.wgsl reads.
+// The histograms that histogram.wgsl fills and exposure.wgsl reads.
 #include "shared.wgsl"
 #include "math.wgsl"
 
 // Index of the counter of white pixels, after the bins.
 const WHITE: u32 = METER_BINS;
-// Index of the first bin of a second histogram: the warm light of the sky, whatever the weight of its pixels.
-const WARM: u32 = METER_BINS + 1u;
-const COUNTERS: u32 = 2u * METER_BINS + 1u;
+// Indices of the first bins of two more histograms: of all pixels, and of those that are no sky. Their pixels have the
+// whole weight.
+const ALL: u32 = METER_BINS + 1u;
+const GROUND: u32 = 2u * METER_BINS + 1u;
+const COUNTERS: u32 = 3u * METER_BINS + 1u;
 // Count of a whole pixel.
 const WHOLE: f32 = 16.0;
 const BINS_PER_EV: f32 = 5.0;

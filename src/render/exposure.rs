@@ -1,18 +1,43 @@
 //! Automatic exposure: a histogram of the finished radiance (`histogram.wgsl`), and the exposure computed from it
 //! (`exposure.wgsl`). The result stays on the GPU in a buffer, which tone mapping reads.
 
-use super::scene::Metering;
 use super::shared::{METER_BINS, METER_GROUP, METER_STRIDE, MeterStep};
 use super::wgsl::{self, Uniform as _};
 use super::{RenderError, gpu, shaders};
 use glam::UVec2;
 
+/// How the exposure of a picture is chosen, and the meaning of [`Post::exposure_ev`](super::Post::exposure_ev).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Metering {
+    /// `exposure_ev` is the exposure: manual control.
+    #[default]
+    Manual,
+    /// `exposure_ev` corrects the exposure metered from this picture.
+    Instant,
+    /// `exposure_ev` corrects an exposure that was metered before: [`Renderer::metered`](super::Renderer::metered).
+    Fixed(Metered),
+    /// As [`Metering::Instant`], but the exposure follows the picture over time, as an eye adapts.
+    Adapting {
+        /// Seconds since the last picture.
+        secs: f64,
+    },
+}
+
+/// What metering finds in a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Metered {
+    /// The exposure, stops.
+    pub ev: f64,
+    /// Stops by which the highlights exceed white at that exposure: for them the curve of [`Tone::AgX`](super::Tone::AgX) bends gently.
+    pub beyond_ev: f64,
+}
+
 impl Metering {
-    /// The exposure in stops, where this picture is not metered.
-    fn fixed_ev(self) -> Option<f32> {
+    /// What holds where this picture is not metered.
+    fn fixed(self) -> Option<Metered> {
         match self {
-            Metering::Manual => Some(0.0),
-            Metering::Fixed { metered_ev } => Some(metered_ev as f32),
+            Metering::Manual => Some(Metered::default()),
+            Metering::Fixed(metered) => Some(metered),
             Metering::Instant | Metering::Adapting { .. } => None,
         }
     }
@@ -38,8 +63,8 @@ impl Metering {
 const ADAPTATION_SECS: f64 = 0.35;
 /// Greatest rate of adaptation: from a sunlit desert into space, a 60th of a second changes a fifth of a stop.
 const FASTEST_EV_S: f64 = 12.0;
-/// Bytes of both histograms and of the counter of white pixels (`meter.wgsl`).
-const HISTOGRAM_BYTES: u64 = (2 * METER_BINS as u64 + 1) * 4;
+/// Bytes of the histograms and of the counter of white pixels (`meter.wgsl`).
+const HISTOGRAM_BYTES: u64 = (3 * METER_BINS as u64 + 1) * 4;
 /// Side in pixels of the square that one workgroup counts.
 const GROUP_PX: u32 = METER_GROUP * METER_STRIDE;
 
@@ -52,7 +77,7 @@ pub(crate) struct ExposurePass {
 /// Exposure of one view, on the GPU.
 pub(crate) struct Exposure {
     bins: wgpu::Buffer,
-    /// Two floats: factor on radiance, and its base-2 logarithm (EV).
+    /// Three floats: factor on radiance, its base-2 logarithm (EV), and stops by which highlights exceed white.
     pub(crate) result: wgpu::Buffer,
     step: wgpu::Buffer,
 }
@@ -88,8 +113,9 @@ impl ExposurePass {
         viewport_px: [u32; 4],
         metering: Metering,
     ) {
-        if let Some(ev) = metering.fixed_ev() {
-            queue.write_buffer(&of.result, 0, bytemuck::cast_slice(&[ev.exp2(), ev, 0.0, 0.0]));
+        if let Some(fixed) = metering.fixed() {
+            let [ev, beyond_ev] = [fixed.ev, fixed.beyond_ev].map(|ev| ev as f32);
+            queue.write_buffer(&of.result, 0, bytemuck::cast_slice(&[ev.exp2(), ev, beyond_ev, 0.0]));
             return;
         }
         let [x, y, width, height] = viewport_px;

@@ -75,6 +75,7 @@ pub use biome_table::MarkedCells;
 #[cfg(feature = "cli")]
 pub(crate) use cloud_map::cloud_keyframe;
 pub use error::RenderError;
+pub use exposure::{Metered, Metering};
 pub use gpu::{read_texture, texture};
 pub use legend::{Color, Legend};
 pub use luts::LutRuns;
@@ -82,7 +83,7 @@ pub use photo::{Develop, Lens, Photo};
 pub use prepared::{OpaqueTargets, PreparedFrame};
 pub use renderer::Renderer;
 pub use scene::{
-    Body, BodyId, DebugView, Matrices, Metering, Point, Post, Projection, Reuse, Scene, Sun, ViewId, split_position,
+    Body, BodyId, DebugView, Matrices, Point, Post, Projection, Reuse, Scene, Sun, ViewId, split_position,
 };
 pub use shaders::air_wgsl;
 pub use shared::{MAX_POINTS, MAX_SUNS};

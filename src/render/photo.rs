@@ -232,7 +232,7 @@ fn metered(renderer: &mut Renderer, scene: &Scene<'_>) -> Result<Metering, Rende
     let shrunk = |side: u32| (u64::from(side) * u64::from(METERED_PX.min(longer)) / u64::from(longer)).max(1) as u32;
     small.size_px = scene.size_px.map(shrunk);
     let given = match scene.post.metering {
-        given @ (Metering::Manual | Metering::Fixed { .. }) => Some(given),
+        given @ (Metering::Manual | Metering::Fixed(_)) => Some(given),
         Metering::Instant | Metering::Adapting { .. } => None,
     };
     if let (Some(given), true) = (given, scene.post.bloom <= 0.0) {
@@ -243,7 +243,7 @@ fn metered(renderer: &mut Renderer, scene: &Scene<'_>) -> Result<Metering, Rende
     renderer.render(&target.create_view(&wgpu::TextureViewDescriptor::default()), &small)?;
     match given {
         Some(given) => Ok(given),
-        None => Ok(Metering::Fixed { metered_ev: renderer.metered_ev(VIEW)? }),
+        None => Ok(Metering::Fixed(renderer.metered(VIEW)?)),
     }
 }
 

@@ -284,8 +284,9 @@ impl<'r> PreparedFrame<'r> {
         pass.draw(device, encoder, of, composite, self.plan.viewport_px, self.plan.metering);
     }
 
-    /// The exposure that was metered: a uniform and storage buffer of two `f32`, the factor on radiance and its
-    /// logarithm to base 2. With [`Metering::Manual`] it is 1 and 0.
+    /// The exposure that was metered: a uniform and storage buffer of three `f32`, the factor on radiance, its
+    /// logarithm to base 2, and the stops by which highlights exceed white ([`super::Metered`]). With
+    /// [`Metering::Manual`] they are 1, 0 and 0.
     pub fn exposure(&self) -> &wgpu::Buffer {
         &self.view.exposure.result
     }

@@ -14,7 +14,7 @@ use super::targets::{self, Owned, Target, Targets};
 use super::terrain::Indices;
 use super::uniforms::{self, Drawn, UniformBuffer};
 use super::variant::Variant;
-use super::{FrameStats, Metering, RenderError, exposure, gpu, shaders};
+use super::{FrameStats, Metered, Metering, RenderError, exposure, gpu, shaders};
 use crate::clouds::coverages;
 use crate::lod::Quality;
 use crate::tiles::Surface;
@@ -362,13 +362,13 @@ impl Renderer {
         Ok(([width, height], bytes.chunks_exact(8).map(pixel).collect()))
     }
 
-    /// The exposure that the newest [`Renderer::render`] of a view metered, in stops: for [`super::Metering::Fixed`].
-    /// 0 for a view that was not drawn. Waits for the device.
+    /// What the newest [`Renderer::render`] of a view metered, for [`super::Metering::Fixed`]: zeros for a view that was
+    /// not drawn. Waits for the device.
     ///
     /// # Errors
     /// [`RenderError::Device`]: the device does not answer.
-    pub fn metered_ev(&self, id: ViewId) -> Result<f64, RenderError> {
-        let Some(view) = self.views.get(&id) else { return Ok(0.0) };
+    pub fn metered(&self, id: ViewId) -> Result<Metered, RenderError> {
+        let Some(view) = self.views.get(&id) else { return Ok(Metered::default()) };
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("metered"),
             size: 16,
@@ -379,7 +379,8 @@ impl Renderer {
         encoder.copy_buffer_to_buffer(&view.exposure.result, 0, &buffer, 0, 16);
         self.queue.submit([encoder.finish()]);
         let bytes = gpu::read(&self.device, &buffer)?;
-        Ok(f64::from(f32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]])))
+        let value = |bytes: &[u8]| f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
+        Ok(Metered { ev: value(&bytes[4..]), beyond_ev: value(&bytes[8..]) })
     }
 
     /// Group 0 of a frame and a body.

@@ -4,6 +4,7 @@
 //! the planet frame of [`crate`]: the renderer draws each body in that frame, relative to the eye.
 
 use super::biome_table::MarkedCells;
+use super::exposure::Metering;
 use super::tone::Tone;
 use crate::lod::{Camera, Quality, View};
 use crate::planet::{Planet, Star};
@@ -175,28 +176,6 @@ impl Projection {
         let up = self.jitter_px[1] * step(half_y, size_px[1]);
         [0.5 * (left + right) + aside, 0.5 * (bottom + top) + up]
     }
-}
-
-/// How the exposure of a picture is chosen, and the meaning of [`Post::exposure_ev`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Metering {
-    /// `exposure_ev` is the exposure: manual control.
-    #[default]
-    Manual,
-    /// `exposure_ev` corrects the exposure metered from this picture.
-    Instant,
-    /// `exposure_ev` corrects an exposure that was metered before, in stops: [`Renderer::metered_ev`].
-    ///
-    /// [`Renderer::metered_ev`]: super::Renderer::metered_ev
-    Fixed {
-        /// The metered exposure, stops.
-        metered_ev: f64,
-    },
-    /// As [`Metering::Instant`], but the exposure follows the picture over time, as an eye adapts.
-    Adapting {
-        /// Seconds since the last picture.
-        secs: f64,
-    },
 }
 
 /// How radiance becomes a picture.

@@ -28,18 +28,26 @@ const AGX_OUT: [[f64; 3]; 3] = [
     [-0.0529716355144438, -0.0980434501171241, 1.15107367264116],
 ];
 /// The curve of AgX over stops: radiance and display code of its pivot, slope there in codes per stop, exponents of the
-/// bends towards black and white, and value of the toe 24 stops below the pivot. Steeper than the original curve, with
+/// bends towards black and white. Steeper than the original curve, with
 /// white two stops above white ground: pictures of planets have few highlights, and need white clouds and dark seas.
 const AGX_PIVOT: f64 = 0.2;
 const AGX_PIVOT_CODE: f64 = 0.5;
 const AGX_SLOPE: f64 = 0.26;
 const AGX_TOE: f64 = 1.5;
 const AGX_SHOULDER: f64 = 6.0;
-const AGX_BLACK: f64 = 0.007;
+/// Stops below the pivot whose value is black: the toe never reaches zero.
+const AGX_BLACK_EV: f64 = 24.0;
+/// Where highlights are beyond white the bends are gentler, and both change together: the exponents far beyond, and how
+/// fast they come near them, per stop. With them highlights four stops over white keep nine tenths of the codes' range.
+const AGX_LONG_TOE: f64 = 1.1;
+const AGX_LONG_SHOULDER: f64 = 1.6;
+const AGX_GENTLER: f64 = 1.5;
+/// Share of the ratios between the channels that the brightest highlights keep there.
+const AGX_KEPT: f64 = 0.5;
 /// Factor on the difference from grey.
 const AGX_SATURATION: f64 = 0.92;
 /// The constants of the curves with their names in `tone.wgsl`.
-pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 9] {
+pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 13] {
     let matrix = |rows: &[[f64; 3]; 3]| Box::new(DMat3::from_cols_array_2d(rows).transpose());
     [
         ("AGX_IN", matrix(&AGX_IN)),
@@ -49,7 +57,11 @@ pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 9] {
         ("AGX_SLOPE", Box::new(AGX_SLOPE)),
         ("AGX_TOE", Box::new(AGX_TOE)),
         ("AGX_SHOULDER", Box::new(AGX_SHOULDER)),
-        ("AGX_BLACK", Box::new(AGX_BLACK)),
+        ("AGX_BLACK_EV", Box::new(AGX_BLACK_EV)),
+        ("AGX_LONG_TOE", Box::new(AGX_LONG_TOE)),
+        ("AGX_LONG_SHOULDER", Box::new(AGX_LONG_SHOULDER)),
+        ("AGX_GENTLER", Box::new(AGX_GENTLER)),
+        ("AGX_KEPT", Box::new(AGX_KEPT)),
         ("AGX_SATURATION", Box::new(AGX_SATURATION)),
     ]
 }
@@ -71,9 +83,10 @@ impl Tone {
     }
 
     /// Display value of a radiance (1: white ground at noon), linear, 0 to 1: the reference for the shader.
-    pub fn shown(self, radiance: [f64; 3]) -> [f64; 3] {
+    /// `beyond_ev`: stops by which highlights exceed white ([`super::Metered`]).
+    pub fn shown(self, radiance: [f64; 3], beyond_ev: f64) -> [f64; 3] {
         match self {
-            Tone::AgX => agx(radiance),
+            Tone::AgX => agx(radiance, beyond_ev),
             Tone::Neutral => neutral(radiance),
             Tone::Plain => radiance.map(|c| c.clamp(0.0, 1.0)),
         }
@@ -89,15 +102,26 @@ fn bend(x: f64, power: f64) -> f64 {
     x / libm::pow(1.0 + libm::pow(x, power), 1.0 / power)
 }
 
-fn agx(radiance: [f64; 3]) -> [f64; 3] {
-    let curved = times(&AGX_IN, radiance.map(|c| c.max(0.0))).map(|c| {
+fn agx(radiance: [f64; 3], beyond_ev: f64) -> [f64; 3] {
+    let gentle = 1.0 - libm::exp(-AGX_GENTLER * beyond_ev);
+    let toe = AGX_TOE + (AGX_LONG_TOE - AGX_TOE) * gentle;
+    let shoulder = AGX_SHOULDER + (AGX_LONG_SHOULDER - AGX_SHOULDER) * gentle;
+    let black = AGX_PIVOT_CODE * (1.0 - bend(AGX_BLACK_EV * AGX_SLOPE / AGX_PIVOT_CODE, toe));
+    let mixed = times(&AGX_IN, radiance.map(|c| c.max(0.0)));
+    let curved = mixed.map(|c| {
         let rise = AGX_SLOPE * libm::log2(c.max(1e-10) / AGX_PIVOT);
-        let dark = AGX_PIVOT_CODE * (1.0 - bend((-rise).max(0.0) / AGX_PIVOT_CODE, AGX_TOE));
-        let light = (1.0 - AGX_PIVOT_CODE) * bend(rise.max(0.0) / (1.0 - AGX_PIVOT_CODE), AGX_SHOULDER);
-        (dark + light - AGX_BLACK).max(0.0)
+        let dark = AGX_PIVOT_CODE * (1.0 - bend((-rise).max(0.0) / AGX_PIVOT_CODE, toe));
+        let light = (1.0 - AGX_PIVOT_CODE) * bend(rise.max(0.0) / (1.0 - AGX_PIVOT_CODE), shoulder);
+        (dark + light - black).max(0.0)
     });
-    let grey: f64 = (0..3).map(|k| LUMINANCE[k] * curved[k]).sum();
-    times(&AGX_OUT, curved.map(|c| grey + AGX_SATURATION * (c - grey))).map(|c| libm::pow(c.clamp(0.0, 1.0), 2.2))
+    let [peak, highest] = [mixed, curved].map(|of| of.into_iter().fold(0.0, f64::max));
+    let kept = AGX_KEPT * gentle * ((highest - AGX_PIVOT_CODE) / (1.0 - AGX_PIVOT_CODE)).clamp(0.0, 1.0);
+    let film = [0, 1, 2].map(|k| {
+        let ratio = libm::pow(mixed[k] / peak.max(1e-10), 1.0 / 2.2);
+        curved[k] + (highest * ratio - curved[k]) * kept
+    });
+    let grey: f64 = (0..3).map(|k| LUMINANCE[k] * film[k]).sum();
+    times(&AGX_OUT, film.map(|c| grey + AGX_SATURATION * (c - grey))).map(|c| libm::pow(c.clamp(0.0, 1.0), 2.2))
 }
 
 fn neutral(radiance: [f64; 3]) -> [f64; 3] {
@@ -128,22 +152,30 @@ mod tests {
 
     #[test]
     fn curves_keep_grey_grey_and_never_turn_back() {
-        for tone in Tone::ALL {
+        for (tone, beyond_ev) in Tone::ALL.into_iter().flat_map(|tone| [(tone, 0.0), (tone, 0.4), (tone, 5.0)]) {
+            let shown = |stop: i32| tone.shown([libm::exp2(f64::from(stop) * 0.1); 3], beyond_ev);
             let mut last = -1.0;
             for stop in -90..60 {
-                let [r, g, b] = tone.shown([libm::exp2(f64::from(stop) * 0.1); 3]);
+                let [r, g, b] = shown(stop);
                 assert!((r - g).abs() < 2e-3 && (g - b).abs() < 2e-3, "{tone:?} {r} {g} {b}");
                 assert!(g >= last - 1e-9 && (0.0..=1.0).contains(&g), "{tone:?} {stop}: {g} after {last}");
                 last = g;
             }
-            assert!(tone.shown([0.0; 3]).iter().all(|c| *c < 1e-3));
-            assert!(last > 0.95, "{tone:?} {last}");
+            assert!(tone.shown([0.0; 3], beyond_ev).iter().all(|c| *c < 1e-3));
+            assert!(shown(200)[1] > 0.95, "{tone:?} {last}");
         }
+        // Highlights beyond white keep steps between them, and dark ground before them is brighter.
+        let [sharp, gentle] = [0.0, 4.0].map(|beyond_ev| {
+            [-5, 2, 4]
+                .map(|ev| libm::pow(Tone::AgX.shown([libm::exp2(f64::from(ev)); 3], beyond_ev)[1], 1.0 / 2.2) * 255.0)
+        });
+        assert!(gentle[2] < 247.0 && gentle[2] > gentle[1] + 6.0 && sharp[2] < sharp[1] + 2.0, "{sharp:?} {gentle:?}");
+        assert!(gentle[0] > sharp[0] + 10.0, "{sharp:?} {gentle:?}");
         // Published value: Neutral only subtracts the 4% that a surface reflects at its interface.
-        assert!((Tone::Neutral.shown([0.5, 0.3, 0.2])[0] - 0.46).abs() < 1e-12);
+        assert!((Tone::Neutral.shown([0.5, 0.3, 0.2], 0.0)[0] - 0.46).abs() < 1e-12);
         // AgX maps its pivot to half of the display range, sunlit white to nearly white, and the sea's radiance to a
         // dark value.
-        let code = |radiance: f64| libm::pow(Tone::AgX.shown([radiance; 3])[1], 1.0 / 2.2) * 255.0;
+        let code = |radiance: f64| libm::pow(Tone::AgX.shown([radiance; 3], 0.0)[1], 1.0 / 2.2) * 255.0;
         assert!((code(AGX_PIVOT) - 126.0).abs() < 1.0, "{}", code(AGX_PIVOT));
         assert!(code(0.75) > 235.0 && code(0.05) < 50.0, "{} {}", code(0.75), code(0.05));
         for (i, row) in AGX_IN.iter().enumerate() {

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::param::{Domain, ValueMut};
 use tellus::planet::{Atmosphere, Fbm, Layer, Planet, STARTING_AIRS, Shape};
-use tellus::render::{Metering, Tone, white_balance};
+use tellus::render::{Metered, Metering, Tone, white_balance};
 use tellus::sphere::LatLon;
 use tellus::tiles::build_now;
 
@@ -226,14 +226,16 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
     (gpu.post.smooth_edges, gpu.post.bloom) = (false, 0.0);
     for tone in Tone::ALL {
         gpu.post.tone = tone;
-        for (east, exposure_ev) in [(25.0, 0.0), (70.0, 3.0), (85.0, -1.0)] {
+        for (east, exposure_ev, beyond_ev) in [(25.0, 0.0, 0.0), (70.0, 3.0, 0.3), (85.0, -1.0, 4.0)] {
             let sun = LatLon::from_degrees(5.0, 10.0 + east).direction();
             let mut scene = frame_of(&surface, &planet, view, sun);
             scene.post.exposure_ev = exposure_ev;
+            scene.post.metering = Metering::Fixed(Metered { ev: 0.0, beyond_ev });
             let drawn = gpu.draw(&scene);
             let (_, pixels) = gpu.renderer.radiance().unwrap();
             for (pixel, shown) in pixels.iter().zip(drawn.chunks(4)) {
-                let wanted = tone.shown([0, 1, 2].map(|k| f64::from(pixel[k]) * white[k] * exposure_ev.exp2()));
+                let light = [0, 1, 2].map(|k| f64::from(pixel[k]) * white[k] * exposure_ev.exp2());
+                let wanted = tone.shown(light, beyond_ev);
                 for k in 0..3 {
                     let c = wanted[k];
                     let encoded = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };

@@ -106,6 +106,30 @@ fn each_ground_reflects_what_its_preset_says() {
     }
 }
 
+/// What is known of the Earth's albedos, and the grounds of presets that stand for it: name of the file, of the ground,
+/// least and greatest albedo.
+const KNOWN: [(&str, &str, f64, f64); 7] = [
+    ("maren.ron", "sea", 0.06, 0.06),
+    ("aurel.ron", "sea", 0.06, 0.06),
+    ("maren.ron", "Palm grove", 0.1, 0.15),
+    ("aurel.ron", "Woodland", 0.1, 0.15),
+    ("aurel.ron", "Desert", 0.3, 0.4),
+    ("aurel.ron", "Ice", 0.8, 0.8),
+    ("hoarfrost.ron", "Fresh snow", 0.8, 0.8),
+];
+
+#[test]
+fn known_albedos() {
+    for file in ["aurel.ron", "maren.ron", "hoarfrost.ron"] {
+        let clear = Planet { clouds: None, ..preset(file) };
+        let airless = Planet { atmosphere: None, ..clear.clone() };
+        eprintln!("{file} {:#?} airless {:#?}", reflected(&Arc::new(clear)), reflected(&Arc::new(airless)));
+    }
+    let _ = KNOWN;
+    let clouds = preset("maren.ron").clouds.map(|clouds| Clouds { coverage: 1.0, veil: 0.0, ..clouds });
+    panic!("{:#?}", reflected(&Arc::new(Planet { clouds, ..preset("maren.ron") })));
+}
+
 /// Closed cloud from above reflects what its optical depth says (Lacis and Hansen 1974), over sea and land alike.
 #[test]
 fn closed_cloud_is_white() {

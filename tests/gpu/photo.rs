@@ -4,7 +4,7 @@ use crate::support::{camera, earth, frame_of, gpu, surface_of};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::Planet;
-use tellus::render::{Develop, Lens, Metering, Photo, Scene, Tone};
+use tellus::render::{Develop, Lens, Metered, Metering, Photo, Scene, Tone};
 use tellus::sphere::LatLon;
 
 fn luminance(pixel: &[f32; 3]) -> f64 {
@@ -22,7 +22,7 @@ fn sharpness(pixels: &[[f32; 3]], width: usize) -> f64 {
 fn wide(draw: impl FnOnce(Scene<'_>)) {
     of(&Arc::new(Planet { clouds: None, ..earth() }), [2200, 40], 3e5, |mut scene| {
         scene.post.smooth_edges = false;
-        scene.post.metering = Metering::Fixed { metered_ev: -1.0 };
+        scene.post.metering = Metering::Fixed(Metered { ev: -1.0, beyond_ev: 1.0 });
         draw(scene);
     });
 }

@@ -193,7 +193,7 @@ fn exposure_lights_dusk_and_lets_night_be_read() {
     assert!(steps[0] < steps[2] && (steps[14] - sunset).abs() < 1.0, "{steps:?} {sunset}");
 }
 
-/// Looking at a low star through dust, the sky is bright but not burnt out, and the ground before it is not black.
+/// Looking at a low star through dust, the sky is bright but not burnt out, and the ground before it can be read.
 #[test]
 fn a_dusty_sky_around_a_low_star_keeps_its_colour() {
     let planet = Arc::new(preset("cinnabar.ron"));
@@ -208,8 +208,8 @@ fn a_dusty_sky_around_a_low_star_keeps_its_colour() {
         let share = |counts: &dyn Fn(u32) -> bool| {
             light.iter().filter(|light| counts(**light)).count() as f64 / light.len() as f64
         };
-        let (burnt, bright, black) = (share(&|l| l > 3 * 237), share(&|l| l > 3 * 120), share(&|l| l < 3 * 3));
-        assert!(burnt < 0.15 && bright > 0.15 && black < 0.1, "{quality:?}, {sun_lon}: {burnt} {bright} {black}");
+        let (burnt, bright, black) = (share(&|l| l > 3 * 250), share(&|l| l > 3 * 120), share(&|l| l < 3 * 14));
+        assert!(burnt < 0.01 && bright > 0.15 && black < 0.05, "{quality:?}, {sun_lon}: {burnt} {bright} {black}");
     }
 }
 
@@ -225,7 +225,7 @@ fn exposure_never_jumps() {
         let mut frame = frame(&surface, &planet, camera, (0.0, sun_lon));
         frame.size_px = [64, 36];
         gpu.draw_only(&frame, 1);
-        gpu.renderer.metered_ev(ViewId::default()).unwrap()
+        gpu.renderer.metered(ViewId::default()).unwrap().ev
     };
     let night_ev = metered_ev(150.0, Metering::Instant);
     let noon_ev = metered_ev(0.0, Metering::Instant);
