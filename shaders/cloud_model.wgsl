@@ -227,11 +227,16 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
 // Share of the veil's scattered light that goes on so nearly straight that it counts as direct.
 const VEIL_AHEAD: f32 = 0.5;
 
-// Mean optical depth of the layers over a layer: of a number, from above.
-fn depth_over(number: u32, sky: Sky) -> f32 {
-    let low = body.cloud_layers[LOW_LAYER].optical_depth * sky.covers[LOW_LAYER];
-    let middle = body.cloud_layers[MIDDLE_LAYER].optical_depth * sky.covers[MIDDLE_LAYER];
-    let veil = body.veil_depth * (1.0 - VEIL_AHEAD) * sky.veil;
+// Optical depth with the mean transmittance of clouds that cover a share of the sky: gaps let through more than a mean
+// depth would.
+fn with_gaps(depth: f32, cover: f32) -> f32 { return -log(max(1.0 - cover * (1.0 - exp(-depth)), 1e-7)); }
+
+// Optical depth of the layers over a layer: of a number, from above. `path`: length of rays through a layer over its
+// thickness.
+fn depth_over(number: u32, sky: Sky, path: f32) -> f32 {
+    let low = with_gaps(body.cloud_layers[LOW_LAYER].optical_depth * path, sky.covers[LOW_LAYER]);
+    let middle = with_gaps(body.cloud_layers[MIDDLE_LAYER].optical_depth * path, sky.covers[MIDDLE_LAYER]);
+    let veil = with_gaps(body.veil_depth * (1.0 - VEIL_AHEAD) * path, sky.veil);
     return veil + select(0.0, middle, number < MIDDLE_LAYER) + select(0.0, low, number < LOW_LAYER);
 }
 
@@ -243,7 +248,12 @@ fn depth_beneath(number: u32, sky: Sky) -> f32 {
 
 // Share of direct sunlight that clouds transmit to a point. `rel`: point relative to the eye, km; `h`: altitude, km.
 fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
-    if all(body.cloud_coverages <= vec4f(0.0)) || h >= body.cloud_top_km { return 1.0; }
+    return cloud_shade(rel, h, sun_mu, footprint).x;
+}
+
+// That, and its mean over the clouds around.
+fn cloud_shade(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> vec2f {
+    if all(body.cloud_coverages <= vec4f(0.0)) || h >= body.cloud_top_km { return vec2f(1.0); }
     let radius = body.radius_km;
     let low = body.cloud_layers[LOW_LAYER];
     let middle = 0.5 * (low.bottom_km + low.top_km);
@@ -257,9 +267,10 @@ fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
     let left = saturate1((low.top_km - h) / (low.top_km - low.bottom_km));
     let fog = body.cloud_layers[FOG_LAYER];
     let fog_left = saturate1((fog.top_km - h) / (fog.top_km - fog.bottom_km));
-    let depth = low.optical_depth * density * sky.top * left + depth_over(LOW_LAYER, sky)
-        + fog.optical_depth * sky.covers[FOG_LAYER] * fog_left;
-    return exp(-depth / max(dot(up, active_sun.dir), 0.05));
+    let path = 1.0 / max(dot(up, active_sun.dir), 0.05);
+    let others = depth_over(LOW_LAYER, sky, path) + with_gaps(fog.optical_depth * fog_left * path, sky.covers[FOG_LAYER]);
+    let through = exp(-(low.optical_depth * vec2f(density * sky.top, 1.0) * left) * path);
+    return vec2f(through.x, 1.0 - sky.covers[LOW_LAYER] * (1.0 - through.y)) * exp(-others);
 }
 
 // Share of light that a layer of an optical depth lets through, most of it diffuse: two-stream estimate.

@@ -75,6 +75,30 @@ fn gusty(variance: f32, noise: f32) -> f32 {
     return min(variance, CALM_SLOPE_VARIANCE) + raised * exp(GUSTS * noise);
 }
 
+// Octaves of the macro variation whose patches roughen and smooth the ripples: 5 km to 80 m.
+const RIPPLED: vec2u = vec2u(3u, 5u);
+// Exponent of that noise. By eye.
+const RIPPLES: f32 = 0.5;
+
+// Factor on the variance of the slopes of waves too small to be drawn: gusts raise ripples in patches. Between the waves
+// near the eye and the streaks from afar that is what the sea shows.
+fn rippled(rel_m: vec3f, footprint_m: f32) -> f32 {
+    var sum = 0.0;
+    var position = rel_m;
+    for (var i = 0u; i <= RIPPLED.y; i++) {
+        let octave = body.variation[i];
+        let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
+        let share = octave_share(lod);
+        if share <= 0.0 { break; }
+        if i >= RIPPLED.x {
+            let at = (octave.offset + position / octave.period).zxy;
+            sum += (textureSampleLevel(noise_tile, repeated, at, lod).r - 0.5) * share;
+        }
+        position = OCTAVE_TURN * position;
+    }
+    return exp(RIPPLES * sum);
+}
+
 // Share of the sea that breaking waves whiten (Monahan and Muircheartaigh 1980), from the variance of the slopes (Cox
 // and Munk 1954: 0.003 + 0.00512 times the wind in m/s).
 fn whitecaps(variance: f32) -> f32 {
@@ -226,6 +250,8 @@ fn water_radiance(water: Water) -> vec3f {
     var mirrored = up;
     if ice.share < 1.0 {
         surface = water_surface(water, rel_m - up * water.lift_m, up, slope_variance, variation);
+        let ripples = mix(rippled(rel_m, footprint_m), 1.0, smoothstep(5.0, 50.0, distance_km));
+        surface.rest = max(surface.rest * mix(1.0, ripples, smoothstep(20.0, 150.0, distance_km * 1000.0)), 0.0004);
         fresnel = fresnel_sea(dot(surface.normal, -dir), surface.rest);
         mirrored = reflect(dir, surface.normal);
         // Rough water reflects a patch of sky above the mirror direction.
@@ -240,8 +266,14 @@ fn water_radiance(water: Water) -> vec3f {
         let sun_mu = dot(up, sun);
         let sunlight = active_sun.irradiance * sun_transmittance(h, sun_mu);
         var shadow = 1.0;
-        if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
-        let share = overcast(shadow);
+        // The sky over a shadow is that of the clouds around: the sea mirrors it.
+        var around = 1.0;
+        if sun_mu > -0.1 {
+            let shade = cloud_shade(rel_km, h, sun_mu, footprint_m * 0.001);
+            shadow = shade.x;
+            around = shade.y;
+        }
+        let share = overcast(around);
         // The shadow of the ground is known for the first sun only.
         shadow *= select(1.0, water.visible.star, i == 0u);
         let diffused = sunlight * max(sun_mu, 0.0) * share.y;
