@@ -42,7 +42,7 @@ const BROAD_HIGHLIGHT_EV: f32 = -0.5;
 // brighter, exposure takes back a share, and for the rest the tone curve gets room.
 const BEYOND: f32 = 0.02;
 const WHITE_EV: f32 = 0.0;
-const FOLLOWED_BEYOND: f32 = 0.45;
+const FOLLOWED_BEYOND: f32 = 0.55;
 const MOST_BEYOND_EV: f32 = 5.0;
 // What the highlights of the sky take from the exposure, and what of that the ground gets back where there is some:
 // the tone curve has room for such a sky.
