@@ -48,6 +48,13 @@ const MOST_BEYOND_EV: f32 = 5.0;
 // the tone curve has room for such a sky.
 const GIVEN_BACK: f32 = 0.25;
 const GROUND_SHARE: vec2f = vec2f(0.05, 0.3);
+// At dusk the glow must keep its colours, whatever the ground: the level in stops that no more than this share of the
+// picture exceeds as sky, the share of the excess that exposure takes back, and the corrections for the mean from which
+// it is dusk. By day clouds are to be white.
+const DUSK_SKY_SHARE: f32 = 0.07;
+const DUSK_SKY_EV: f32 = -1.0;
+const FOLLOWED_DUSK_SKY: f32 = 0.5;
+const DUSK_FROM_EV: vec2f = vec2f(2.0, 4.0);
 const LIFTED_HIGHLIGHT: f32 = 0.3;
 const LIFTED_SNOW: f32 = 1.0;
 // Share of white pixels at which the lift changes from that for ground to that for snow.
@@ -85,6 +92,18 @@ fn corrected(mean_ev: f32) -> f32 {
     let ground = min(off, DARK_GROUND_EV);
     let dusk = clamp(off - DARK_GROUND_EV, 0.0, NIGHT_EV - DARK_GROUND_EV);
     return ground * FOLLOWED_DARK_GROUND + dusk * FOLLOWED_DUSK + max(off - NIGHT_EV, 0.0) * FOLLOWED_NIGHT;
+}
+
+// Level in stops that `count` of the pixels of the sky exceed.
+fn sky_exceeded_by(count: f32) -> f32 {
+    var over = 0.0;
+    var bin = METER_BINS - 1u;
+    while bin > 0u {
+        over += f32(bins[ALL + bin] - bins[GROUND + bin]);
+        if over >= count { break; }
+        bin--;
+    }
+    return stops(bin);
 }
 
 // The exposure that the ground alone would have, from the one before highlights limit it; no more than `LEAST_EV` where
@@ -140,6 +159,8 @@ fn compute() {
         ev = min(ev, BROAD_HIGHLIGHT_EV - broad);
         let ground_ev = of_ground(unlimited, pixels);
         ev += GIVEN_BACK * max(ground_ev - ev, 0.0);
+        let dusk = smoothstep(DUSK_FROM_EV.x, DUSK_FROM_EV.y, unlimited);
+        ev -= dusk * FOLLOWED_DUSK_SKY * max(sky_exceeded_by(DUSK_SKY_SHARE * pixels) + ev - DUSK_SKY_EV, 0.0);
         ev -= FOLLOWED_BEYOND * max(top + ev - WHITE_EV, 0.0);
         let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
         ev = clamp(ev, LEAST_EV, most);

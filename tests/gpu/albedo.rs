@@ -8,7 +8,7 @@ use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Clouds, Planet};
 use tellus::render::DebugView;
-use tellus::sphere::LatLon;
+use tellus::sphere::{LatLon, spread};
 
 const SIDE_PX: usize = 96;
 /// Directions that the eye is over.
@@ -124,12 +124,12 @@ const OFF: f64 = 0.15;
 /// The direction around which most of the ground is of a name.
 fn middle_of(planet: &Arc<Planet>, name: &str) -> DVec3 {
     let terrain = terrain(planet);
-    let dirs = (0..3000).map(|i| {
-        let z = 1.0 - 2.0 * (f64::from(i) + 0.5) / 3000.0;
-        let (sin, cos) = (f64::from(i) * 2.399_963).sin_cos();
-        dvec3(cos, sin, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z
-    });
-    let there: Vec<DVec3> = dirs.filter(|dir| planet.biomes.palette[terrain.sample(*dir).biome].name == name).collect();
+    let is_there = |dir: &DVec3| {
+        let ground = terrain.sample(*dir);
+        let is_dry = planet.sea_level_m().is_none_or(|level_m| ground.height_m > level_m + 20.0);
+        is_dry && planet.biomes.palette[ground.biome].name == name
+    };
+    let there: Vec<DVec3> = spread(3000).filter(is_there).collect();
     let near = |dir: &DVec3| there.iter().filter(|other| other.dot(*dir) > 0.98).count();
     *there.iter().max_by_key(|dir| near(dir)).expect("ground of this name")
 }
