@@ -1,10 +1,11 @@
 //! The sea: waves where queries say they are, the view from under it, floes, glow.
 
 use crate::scene::Stages;
-use crate::support::{camera, earth, frame, frame_of, gpu, lights, surface, surface_of};
+use crate::support::{camera, earth, frame, frame_of, gpu, lights, preset, surface, surface_of};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::{Planet, Water};
+use tellus::render::Scene;
 use tellus::sea::{Column, Waves};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
@@ -65,6 +66,35 @@ fn the_surface_is_drawn_where_queries_find_it() {
     // Ice leaves the longest waves alone.
     let icy_m = range_of(Water { freezing_c: 100.0, ..rough }, 0.12);
     assert!(icy_m < 0.35 * open_m, "{icy_m} m of {open_m} m");
+}
+
+/// The open sea around an eye 2 m over it has waves as far as the foot of the picture: bed that is not in the picture
+/// is no shore. The waves are those of the solved wind: without it the sea on the equator is calm.
+#[test]
+fn open_water_has_waves_up_to_the_eye() {
+    let planet = Arc::new(preset("maren.ron"));
+    let mut gpu = gpu();
+    let camera = camera(&planet, 0.0, -120.0, 2.0, 270.0, -3.0);
+    let view = View { camera, size_px: [192, 108], quality: Quality::High };
+    let surface = surface_of(&planet, &view);
+    let scene = Scene::of_planet(&surface, view, LatLon::from_degrees(10.0, -130.0).direction());
+    gpu.draw_only(&scene, 1);
+    let ([width, height], radiance) = gpu.renderer.radiance().unwrap();
+    let [width, height] = [width as usize, height as usize];
+    // How much the light changes from row to row, by the light, in bands of rows.
+    let roughness = |rows: std::ops::Range<usize>| {
+        let (mut change, mut light) = (0.0, 0.0);
+        for i in rows.flat_map(|y| (0..width).map(move |x| y * width + x)) {
+            change += f64::from(radiance[i][1] - radiance[i - width][1]).abs();
+            light += f64::from(radiance[i][1]);
+        }
+        change / light
+    };
+    let bands = [0.54, 0.74, 0.87].map(|from: f64| {
+        let first = (from * height as f64) as usize;
+        roughness(first..first + height / 8)
+    });
+    assert!(bands[1].min(bands[2]) > 0.5 * bands[0], "{bands:?}");
 }
 
 /// From below, the sky is a bright window overhead; beyond it the surface mirrors dark water.
