@@ -36,7 +36,7 @@ const AGX_SLOPE: f64 = 0.26;
 const AGX_TOE: f64 = 1.5;
 const AGX_SHOULDER: f64 = 6.0;
 /// Stops below the pivot whose value is black: the toe never reaches zero.
-const AGX_BLACK_EV: f64 = 24.0;
+const AGX_BLACK_EV: f64 = 25.0;
 /// Where highlights are beyond white the bends are gentler, and both change together: the exponents far beyond, and how
 /// fast they come near them, per stop. With them highlights four stops over white keep nine tenths of the codes' range.
 const AGX_LONG_TOE: f64 = 1.1;
