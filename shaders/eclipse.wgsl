@@ -71,8 +71,8 @@ const HORIZON_BRIGHTER: f32 = 3.0;
 // Share of the light of the sky around the point `at_km` that is left. The air beyond a shadow scatters light into it,
 // so that totality is a twilight (Shaw, Sky brightness and polarization during the 1973 African eclipse, 1975). Air at
 // a distance stands as high over the horizon as its scale height is seen from there, and its light is dimmed on its
-// way. `shares`: at the point. `extinction`: there, per km; rays climb out of it. `dimness`: what else dims the light of
-// air at a distance, as a factor and as one on the height of that air.
+// way. `shares`: at the point. `extinction`: there, per km; rays climb out of it. `dimness`: what else dims the light
+// of air at a distance, as a factor and as one on the height of that air.
 fn share_of_sky(at_km: vec3f, shares: Shares, extinction: vec3f, dimness: vec2f) -> vec3f {
     let share = shares.all;
     if ALONE || body.occluder_count == 0u || body.air_height_km <= 0.0 { return share; }

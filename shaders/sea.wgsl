@@ -80,8 +80,8 @@ const RIPPLED: vec2u = vec2u(3u, 5u);
 // Exponent of that noise. By eye.
 const RIPPLES: f32 = 0.5;
 
-// Factor on the variance of the slopes of waves too small to be drawn: gusts raise ripples in patches. Between the waves
-// near the eye and the streaks from afar that is what the sea shows.
+// Factor on the variance of the slopes of waves too small to be drawn: gusts raise ripples in patches. Between the
+// waves near the eye and the streaks from afar that is what the sea shows.
 fn rippled(rel_m: vec3f, footprint_m: f32) -> f32 {
     var sum = 0.0;
     var position = rel_m;

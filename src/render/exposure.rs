@@ -28,7 +28,8 @@ pub enum Metering {
 pub struct Metered {
     /// The exposure, stops.
     pub ev: f64,
-    /// Stops by which the highlights exceed white at that exposure: for them the curve of [`Tone::AgX`](super::Tone::AgX) bends gently.
+    /// Stops by which the highlights exceed white at that exposure: for them the curve of
+    /// [`Tone::AgX`](super::Tone::AgX) bends gently.
     pub beyond_ev: f64,
 }
 
