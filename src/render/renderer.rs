@@ -362,8 +362,8 @@ impl Renderer {
         Ok(([width, height], bytes.chunks_exact(8).map(pixel).collect()))
     }
 
-    /// What the newest [`Renderer::render`] of a view metered, for [`super::Metering::Fixed`]: zeros for a view that was
-    /// not drawn. Waits for the device.
+    /// What the newest [`Renderer::render`] of a view metered, for [`super::Metering::Fixed`]: zeros for a view that
+    /// was not drawn. Waits for the device.
     ///
     /// # Errors
     /// [`RenderError::Device`]: the device does not answer.
