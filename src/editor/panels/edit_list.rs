@@ -8,7 +8,7 @@ use crate::editor::finder::place::Place;
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::number::length_text;
 use crate::planet::Tool;
-use crate::planet::edits::{EditPoint, GroundEdit, MAX_EDITS};
+use crate::planet::edits::{EditPoint, GroundEdit};
 use crate::planet::param::Choice;
 use crate::sphere::LatLon;
 use eframe::egui::{self, AtomExt};
@@ -35,6 +35,9 @@ pub fn show(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     if count == 0 {
         ui.weak("There are none yet.");
         return;
+    }
+    if draft.planet.edits.is_full() {
+        ui.weak("A planet may not have more edits: bake some of them into a picture.");
     }
     let words: Vec<String> = state.find.split_whitespace().map(str::to_lowercase).collect();
     let fits = |edit: &GroundEdit| {
@@ -139,7 +142,7 @@ fn buttons(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>, ch
             }
         });
     }
-    ui.add_enabled_ui(chosen.is_some() && count < MAX_EDITS, |ui| {
+    ui.add_enabled_ui(chosen.is_some() && !draft.planet.edits.is_full(), |ui| {
         if icon_button(ui, Icon::Duplicate, "Duplicate edit", "Add a copy behind the selected edit").clicked()
             && let Some(index) = chosen
             && let Some(copy) = draft.planet.edits.get(index).cloned()

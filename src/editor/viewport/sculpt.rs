@@ -10,7 +10,7 @@ use super::pointer::in_view;
 use super::ring;
 use crate::editor::widgets::random_seed;
 use crate::lod::{Camera, View};
-use crate::planet::edits::{EditPoint, GroundEdit, MAX_EDITS, PaintMode};
+use crate::planet::edits::{EditPoint, GroundEdit, PaintMode};
 use crate::planet::param::Choice;
 use crate::planet::{Planet, Tool};
 use crate::tiles::Surface;
@@ -226,7 +226,7 @@ impl Hand {
     /// Adds an edit with one point. Gives its index.
     fn place(&mut self, brush: &GroundEdit, inverse: bool, point: EditPoint, planet: &mut Planet) -> Option<usize> {
         let index = planet.edits.len();
-        if index >= MAX_EDITS {
+        if planet.edits.is_full() {
             return None;
         }
         let mut edit = GroundEdit { seed: random_seed() as u32, ..brush.clone() };

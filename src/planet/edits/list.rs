@@ -1,7 +1,7 @@
 //! The list of ground edits of a planet. Copies share their edits until one of them is changed, so that a planet with
 //! thousands of edits is copied, compared and kept in undo steps at almost no cost.
 
-use super::{GroundEdit, Tool};
+use super::{GroundEdit, MAX_ALL_POINTS, MAX_EDIT_POINTS, MAX_EDITS, Tool};
 use crate::planet::Biome;
 use crate::planet::param::{Form, Look, ParamPath, Params, Part, PartType, Segment, Visit};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -57,6 +57,12 @@ impl GroundEdits {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
+    }
+
+    /// Whether the planet may not have another edit with as many points as an edit may have.
+    pub fn is_full(&self) -> bool {
+        let points: usize = self.iter().map(|edit| edit.points.0.len()).sum();
+        self.len() >= MAX_EDITS || points + MAX_EDIT_POINTS > MAX_ALL_POINTS
     }
 
     /// The edits in order.
@@ -190,6 +196,21 @@ impl PartType for GroundEdits {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::planet::EditPoint;
+
+    #[test]
+    fn a_planet_is_full_where_an_edit_more_could_be_too_much() {
+        let long = GroundEdit {
+            points: vec![EditPoint::default(); MAX_EDIT_POINTS].into_iter().collect(),
+            ..Default::default()
+        };
+        let mut edits: GroundEdits = vec![long; MAX_ALL_POINTS / MAX_EDIT_POINTS - 1].into_iter().collect();
+        assert!(!edits.is_full());
+        edits.push(GroundEdit { points: [EditPoint::default()].into_iter().collect(), ..Default::default() });
+        assert!(edits.is_full());
+        let edits: GroundEdits = vec![GroundEdit::default(); MAX_EDITS].into_iter().collect();
+        assert!(edits.is_full());
+    }
 
     #[test]
     fn copies_share_until_one_is_changed() {
