@@ -142,7 +142,8 @@ fn floes_cover_more_where_it_is_colder() {
         white as f64 / lights.len() as f64
     };
     let shares = [-15.0, -6.0, -4.0, 5.0].map(&mut whites);
-    assert!(shares[0] < 0.01 && shares[3] > 0.9, "{shares:?}");
+    // The glint of the sun is white as well, without any ice.
+    assert!(shares[0] < 0.03 && shares[3] > 0.9, "{shares:?}");
     assert!(shares[1] > 0.05 && shares[1] < shares[2] && shares[2] < 0.97, "{shares:?}");
 }
 

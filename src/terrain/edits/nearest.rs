@@ -94,10 +94,10 @@ fn find_body(all: &[Arc], places: &[u32], tapers: bool, points: [&[f64]; 3], ord
     for &place in places {
         let Some(arc) = all.get(place as usize) else { continue };
         let tangents = arc.tangents();
-        // Two loops, so that each is vectorised.
+        // Apart, so that the usual loop is vectorised.
         if tapers {
             for i in 0..count {
-                let new = arc.tapered_order(DVec3::new(x[i], y[i], z[i]), tangents);
+                let new = arc.tapered_order(DVec3::new(x[i], y[i], z[i]));
                 let is_nearer = new < order[i];
                 order[i] = if is_nearer { new } else { order[i] };
                 nearest[i] = if is_nearer { place } else { nearest[i] };

@@ -85,12 +85,11 @@ impl Arc {
         if self.is_beside(dir, from_a, tangents) { off * off } else { order_of(end) }
     }
 
-    /// As [`Arc::order`], for arcs that taper: distances count in widths.
-    #[inline(always)]
-    pub(super) fn tapered_order(&self, dir: DVec3, tangents: [DVec3; 2]) -> f64 {
+    /// The order by distance for arcs that taper: the distance in widths. It is exact, because arcs that are out of
+    /// reach are left out where others are near: none of them may come before one within reach.
+    pub(super) fn tapered_order(&self, dir: DVec3) -> f64 {
         let [from, to] = self.widths;
-        let width = from + (to - from) * self.share(dir);
-        self.order(dir, tangents) / (width * width)
+        angle_of(self.chord2(dir).0) / (from + (to - from) * self.share(dir))
     }
 
     /// How far along the arc a direction lies: 0 at its beginning and before it, 1 at its end and beyond.
