@@ -5,8 +5,8 @@ use super::layers::Blend;
 use super::param::{ParamPath, Segment};
 use super::shapes::CellStyle;
 use super::{
-    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Giant, Layer, Planet, Rings, Shape, Steep, Structure,
-    TableRows, Water,
+    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Giant, GroundEdit, Layer, Planet, Rings, Shape, Steep,
+    Structure, TableRows, Water,
 };
 
 /// Why a parameter has no effect: a sentence without a full stop. None: it has one.
@@ -19,6 +19,9 @@ impl Planet {
         match path.segments() {
             [Field("layers"), Index(index), rest @ ..] => {
                 self.layers.get(*index).and_then(|layer| self.layer_idle(layer, rest))
+            }
+            [Field("edits"), Index(index), Field(name)] => {
+                self.edits.get(*index).and_then(|edit| edit_idle(edit, name))
             }
             [Field("climate"), Field(name)] => self.climate_idle(&self.climate, name),
             [Field("biomes"), Field("palette"), Index(index), Field(name)] => {
@@ -69,6 +72,14 @@ impl Planet {
             ),
             _ => None,
         }
+    }
+}
+
+fn edit_idle(edit: &GroundEdit, name: &str) -> Idle {
+    match name {
+        "outside_mask" => when(edit.limiting_mask().is_none(), "The edit has no mask"),
+        "spread_km" | "smallest" => when(edit.copies <= 1, "There is one copy only"),
+        _ => None,
     }
 }
 

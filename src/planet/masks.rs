@@ -5,6 +5,8 @@
 
 use super::kinds::kinds;
 use super::param::{Domain, Stage, Unit, linear, log, params};
+use super::{Planet, Tool};
+use std::collections::BTreeSet;
 
 /// Name of the first mask that is painted.
 pub(crate) const FIRST_PAINTED: &str = "Mask";
@@ -83,7 +85,7 @@ params! {
     /// Limits a layer to where strokes of the mask tool painted a mask of this name.
     pub struct PaintedMask {
         /// Name of the mask. Layers that name the same mask share it.
-        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::Text { max_chars: 48 },
+        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::MaskName { max_chars: 48 },
             Stage::Field | Stage::Height;
         /// Paint, from 0 to 1, at which the layer is fully off.
         from_share: f64 = 0.0, "Off at", Unit::None, linear(0.0, 1.0), Stage::Height;
@@ -91,6 +93,21 @@ params! {
         to_share: f64 = 1.0, "On at", Unit::None, linear(0.0, 1.0), Stage::Height;
         /// Swaps on and off.
         invert: bool = false, "Invert", Unit::None, Domain::Flag, Stage::Height;
+    }
+}
+
+impl Planet {
+    /// The names of painted masks that layers and edits have, in alphabetical order.
+    pub fn painted_masks(&self) -> BTreeSet<&str> {
+        let of_layers = self.layers.iter().flat_map(|layer| &layer.masks).filter_map(|mask| match mask {
+            Mask::Painted(mask) => Some(&*mask.mask),
+            _ => None,
+        });
+        let of_edits = self.edits.iter().filter_map(|edit| match &edit.tool {
+            Tool::Mask(paint) => Some(&*paint.mask),
+            _ => edit.limiting_mask(),
+        });
+        of_layers.chain(of_edits).filter(|name| !name.is_empty()).collect()
     }
 }
 

@@ -4,7 +4,7 @@ use super::sculpt::{at, beside, edit, planet, settled, terrain, view};
 use crate::support::dice::Dice;
 use glam::DVec3;
 use std::sync::Arc;
-use tellus::planet::edits::{GroundEdit, MaskPaint, Smooth, Tool};
+use tellus::planet::edits::{Flatten, GroundEdit, MaskPaint, Mesa, PaintMode, Raise, Smooth, TemperaturePaint, Tool};
 use tellus::planet::param::{Stage, Stages};
 use tellus::planet::{Blend, Fbm, Layer, Mask, PaintedMask, Planet, Shape};
 use tellus::simd::Simd;
@@ -155,4 +155,137 @@ fn a_stroke_rebuilds_the_tiles_that_it_touches_and_those_that_read_its_ground() 
     let before = Revision::try_new(Arc::new(unread.clone())).unwrap();
     unread.edits.push(edit(paint("Dry", 1.0), 2.0, &[spot]));
     assert_eq!(Revision::try_new(Arc::new(unread)).unwrap().changes_since(&before), Stages::NONE);
+}
+
+/// The paint of a stroke of the default softness, at a share of its radius.
+fn weight(share: f64) -> f64 {
+    let u = ((share - 0.2) / 0.8).clamp(0.0, 1.0);
+    1.0 - u * u * u * (u * (u * 6.0 - 15.0) + 10.0)
+}
+
+#[test]
+fn an_edit_acts_as_far_as_its_mask_is_painted_or_outside() {
+    let middle = at(20.0, 30.0);
+    let stroke = edit(paint("Zone", 0.8), 40.0, &[middle]);
+    let tools = [
+        Tool::Raise(Raise { amount_m: 700.0 }),
+        Tool::Flatten(Flatten { height_m: 300.0, strength: 1.0 }),
+        Tool::Temperature(TemperaturePaint { mode: PaintMode::Shift, temperature_c: 10.0 }),
+    ];
+    let of = |edits: Vec<GroundEdit>| {
+        let terrain = terrain(&planet(600.0, edits));
+        move |dir: DVec3| {
+            let sample = terrain.sample(dir);
+            [sample.height_m, sample.temperature_c]
+        }
+    };
+    for tool in tools {
+        // Its own weight is 1 wherever the mask is painted.
+        let whole = GroundEdit { softness: 0.0, ..edit(tool, 100.0, &[middle]) };
+        let masked = GroundEdit { mask: "Zone".to_owned(), ..whole.clone() };
+        let outside = GroundEdit { outside_mask: true, ..masked.clone() };
+        let (bare, all) = (of(vec![]), of(vec![whole]));
+        // A stroke may come before the edit or behind it.
+        let [inside, around] = [(masked.clone(), false), (outside, true)]
+            .map(|(edit, is_first)| of(if is_first { vec![stroke.clone(), edit] } else { vec![edit, stroke.clone()] }));
+        let unpainted = of(vec![masked]);
+        let mut changed = 0;
+        for i in 0..60 {
+            let share = f64::from(i) / 50.0;
+            let dir = beside(&middle, f64::from(i) * 37.0, 40.0 * share);
+            let painted = 0.8 * weight(share);
+            // Temperatures fall with the height as the ground rises: both are linear in the share.
+            let wanted = |share: f64| std::array::from_fn(|k| bare(dir)[k] + (all(dir)[k] - bare(dir)[k]) * share);
+            let near = |found: [f64; 2], wanted: [f64; 2]| {
+                assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-6), "{share}: {found:?} {wanted:?}");
+            };
+            near(inside(dir), wanted(painted));
+            near(around(dir), wanted(1.0 - painted));
+            assert_eq!(unpainted(dir), bare(dir));
+            changed += usize::from(painted > 0.05 && painted < 0.75 && all(dir) != bare(dir));
+        }
+        assert!(changed > 15, "{changed}");
+    }
+}
+
+#[test]
+fn a_stroke_of_the_mask_of_an_edit_rebuilds_its_own_tiles_alone() {
+    let spot = at(12.0, -70.0);
+    let raise = edit(Tool::Raise(Raise { amount_m: 300.0 }), 400.0, &[spot]);
+    let masked = GroundEdit { mask: "Zone".to_owned(), softness: 0.2, ..raise };
+    let first = edit(paint("Zone", 1.0), 3.0, &[at(12.05, -70.0)]);
+    let plain = planet(900.0, vec![masked, first]);
+    let view = view(12.0, -70.0, 4e4);
+    let builder = Builder::new(|| {});
+    let before = settled(&builder, &plain, &view);
+    for (mask, touches) in [("Zone", true), ("Other", false)] {
+        let mut planet = plain.clone();
+        planet.edits.push(edit(paint(mask, 1.0), 2.0, &[spot]));
+        let surface = settled(&builder, &planet, &view);
+        assert!(surface.stats.tiles_built * 3 < surface.leaves.len(), "{}", surface.stats.tiles_built);
+        let heights = |surface: &tellus::tiles::Surface| -> Vec<_> {
+            surface.leaves.iter().map(|leaf| (leaf.tile.id, leaf.tile.vertices.clone())).collect()
+        };
+        assert!(heights(&surface) == heights(&build_now(&Arc::new(planet), &view).unwrap()));
+        assert_eq!(heights(&surface) != heights(&before), touches);
+        settled(&builder, &plain, &view);
+    }
+}
+
+#[test]
+fn copies_of_a_stamp_are_scattered_over_a_mask() {
+    let middle = at(20.0, 30.0);
+    let mesa = Tool::Mesa(Mesa { height_m: 500.0, talus: 0.0 });
+    let scattered = GroundEdit {
+        copies: 200,
+        spread_km: 400.0,
+        smallest: 1.0,
+        softness: 0.0,
+        mask: "Field".to_owned(),
+        ..edit(mesa, 5.0, &[middle])
+    };
+    // An eighth of the spread: each copy finds a place.
+    let field = GroundEdit { softness: 0.0, ..edit(paint("Field", 1.0), 141.0, &[at(20.0, 40.0)]) };
+    let [inside, outside, unpainted] = [
+        vec![scattered.clone(), field.clone()],
+        vec![GroundEdit { outside_mask: true, ..scattered.clone() }, field.clone()],
+        vec![scattered.clone()],
+    ]
+    .map(|edits| terrain(&planet(0.0, edits)));
+    let mut dice = Dice(3);
+    let [mut within, mut beyond] = [[0, 0]; 2];
+    let mut count = [0, 0];
+    for _ in 0..30_000 {
+        let dir = beside(&middle, dice.roll() * 360.0, 404.0 * dice.roll().sqrt());
+        let away_km = dir.angle_between(at(20.0, 40.0).direction()) * 1000.0;
+        assert_eq!(unpainted.height_m(dir), 0.0, "nothing is painted");
+        if (away_km - 141.0).abs() < 5.5 {
+            continue;
+        }
+        let is_within = away_km < 141.0;
+        count[usize::from(is_within)] += 1;
+        for (terrain, seen) in [(&inside, &mut within), (&outside, &mut beyond)] {
+            seen[usize::from(is_within)] += usize::from(terrain.height_m(dir) > 400.0);
+        }
+    }
+    assert_eq!((within[0], beyond[1]), (0, 0), "copies lie on their side of the mask");
+    // 200 discs of 5 km cover 8 % of the disc of 400 km: less where they meet.
+    let share = |seen: usize, of: usize| seen as f64 / of as f64;
+    let inside_share = share(within[1], count[1]);
+    assert!(inside_share > 0.15 && inside_share < 0.3, "{inside_share}");
+    let outside_share = share(beyond[0], count[0]);
+    assert!(outside_share > 0.02 && outside_share < 0.06, "{outside_share}");
+
+    // Paint that is added step by step ends as paint that is there at once.
+    let strokes =
+        [field, edit(paint("Field", -1.0), 60.0, &[at(21.0, 39.0)]), edit(paint("Field", 1.0), 70.0, &[middle])];
+    let mut stepwise = planet(0.0, vec![scattered]);
+    for stroke in strokes {
+        stepwise.edits.push(stroke);
+        drop(terrain(&stepwise));
+    }
+    let dirs: Vec<DVec3> = (0..4000).map(|i| beside(&middle, f64::from(i) * 7.0, f64::from(i) * 0.1)).collect();
+    let found = terrain(&stepwise).heights_m(&dirs);
+    drop(terrain(&Planet { radius_km: 900.0, ..stepwise.clone() }));
+    assert_eq!(found, terrain(&stepwise).heights_m(&dirs));
 }

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::time::Duration;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::edits::{
-    Canyon, Coast, Crater, EditBlend, EditPoint, EditPoints, Fault, Flatten, GroundEdit, Island, Limit, Mesa,
-    PictureStamp, Raise, Ridge, Road, Terrace, Tool, Volcano, Wall,
+    Canyon, Coast, Crater, EditBlend, EditPoint, EditPoints, Fault, Flatten, GroundEdit, Island, Limit, MaskPaint,
+    Mesa, PictureStamp, Raise, Ridge, Road, Terrace, Tool, Volcano, Wall,
 };
 use tellus::planet::{Fbm, GroundEdits, Layer, Planet, Shape, Water};
 use tellus::simd::Simd;
@@ -56,10 +56,16 @@ pub(crate) fn beside(point: &EditPoint, heading_deg: f64, away_km: f64) -> DVec3
     dir * angle.cos() + (east * sin + north * cos) * angle.sin()
 }
 
-/// Every tool with numbers of its own, at places that include a pole, corners and edges of the cube.
+/// Every tool with numbers of its own, at places that include a pole, corners and edges of the cube. A painted mask
+/// limits some.
 pub(crate) fn every_tool() -> Vec<GroundEdit> {
     let places = [(89.99, 20.0), (35.264_39, 45.0), (0.0, 45.0), (-35.26, 135.0), (12.0, -70.0), (-89.9, 0.0)];
     let tools = Tool::all().into_iter().enumerate();
+    let stroke = |(lat_deg, lon_deg): (f64, f64)| {
+        let paint = Tool::Mask(MaskPaint { mask: "Zone".to_owned(), amount: 0.9 });
+        GroundEdit { raggedness: 0.4, ..edit(paint, 90.0, &[at(lat_deg - 2.0 * lat_deg.signum(), lon_deg + 3.0)]) }
+    };
+    let strokes = places.map(stroke);
     tools
         .map(|(i, tool)| {
             let (lat_deg, lon_deg) = places[i % places.len()];
@@ -82,8 +88,13 @@ pub(crate) fn every_tool() -> Vec<GroundEdit> {
             }
             let limit = Limit::ALL[i % 3];
             let raggedness = if i % 2 == 0 { 0.6 } else { 0.0 };
-            GroundEdit { limit, raggedness, name: format!("{i}"), ..edit(tool, 60.0 + 10.0 * i as f64, &points) }
+            let mask = if i % 4 > 1 { "Zone".to_owned() } else { String::new() };
+            let copies = if i % 4 == 2 { 9 } else { 1 };
+            let one = edit(tool, 60.0 + 10.0 * i as f64, &points);
+            let name = format!("{i}");
+            GroundEdit { limit, raggedness, name, mask, outside_mask: i % 8 > 3, copies, spread_km: 200.0, ..one }
         })
+        .chain(strokes)
         .collect()
 }
 

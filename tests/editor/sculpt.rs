@@ -346,7 +346,7 @@ fn a_painted_mask_of_a_layer_takes_the_mask_tool_and_strokes_let_the_layer_act()
     };
     stroke(&mut harness, middle, middle + egui::vec2(60.0, 0.0), egui::Modifiers::NONE);
     assert!(highest_m(&harness).unwrap() > 500.0, "{:?}", highest_m(&harness));
-    assert_eq!(undo_label(&harness), "Mask of layers");
+    assert_eq!(undo_label(&harness), "Mask");
     let names = |harness: &app::Editor| -> Vec<String> {
         let planet = planet(harness);
         let names = planet.edits.iter().filter_map(|edit| match &edit.tool {

@@ -246,9 +246,20 @@ fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
         let problem = state.refused.as_ref().map(|(_, why)| why.as_str());
         let takes_focus = draft.shown.takes_focus(&path, param.name);
         let (owner, default, locks) = (name.as_str(), Some(&default), draft.shown.locks);
-        let curves = draft.shown.curves;
-        let row =
-            Row { param, path: &path, owner, default, problem, idle: None, biomes: &[], takes_focus, locks, curves };
+        let (curves, planet) = (draft.shown.curves, draft.shown.planet);
+        let row = Row {
+            param,
+            path: &path,
+            owner,
+            default,
+            problem,
+            idle: None,
+            planet,
+            biomes: &[],
+            takes_focus,
+            locks,
+            curves,
+        };
         if draft.shown.passes(&path, param) {
             draft.shown.marked(ui, &path, param.name, |ui| param_row(ui, &row, key.value_mut()));
         }

@@ -33,6 +33,8 @@ const OWN_ROWS: [&str; 3] = ["name", "enabled", "points"];
 const NOT_OF_BRUSH: [&str; 4] = ["name", "enabled", "points", "seed"];
 /// Parameters of tools that change the ground alone.
 const OF_GROUND: [&str; 4] = ["limit", "blend", "above_m", "below_m"];
+/// Parameters of tools that a painted mask limits.
+const OF_MASKED: [&str; 2] = ["mask", "outside_mask"];
 /// Parameters of stamps alone.
 const OF_STAMPS: [&str; 3] = ["copies", "spread_km", "smallest"];
 
@@ -98,11 +100,17 @@ impl SculptState {
     /// Takes the mask tool in hand, for a painted mask of a layer.
     fn take_mask(&mut self, planet: &Planet, layer: usize, mask: usize) {
         let mask = planet.layers.get(layer).and_then(|layer| layer.masks.get(mask));
-        let Some(Mask::Painted(PaintedMask { mask, .. })) = mask else { return };
+        if let Some(Mask::Painted(PaintedMask { mask, .. })) = mask {
+            self.take_mask_named(planet, mask);
+        }
+    }
+
+    /// Takes the mask tool in hand, for the mask of this name.
+    fn take_mask_named(&mut self, planet: &Planet, mask: &str) {
         let tool = Tool::Mask(MaskPaint::default()).index();
         (self.tool, self.in_hand, self.measures) = (tool, true, false);
         if let Tool::Mask(paint) = &mut self.brush(planet).tool {
-            paint.mask.clone_from(mask);
+            mask.clone_into(&mut paint.mask);
         }
     }
 
@@ -216,6 +224,7 @@ fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
         }
     }
     idle_tool(ui, draft.planet, &brush.tool);
+    let mask = paint_mask(ui, brush, owner);
     // The grid also offers the choice of the tool.
     let after = brush.tool.index();
     if after != before {
@@ -223,6 +232,9 @@ fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
         state.brushes.retain(|(tool, _)| *tool != after && *tool != before);
         state.brushes.push((after, changed));
         state.tool = after;
+    }
+    if let Some(mask) = mask {
+        state.take_mask_named(draft.planet, &mask);
     }
 }
 
@@ -248,6 +260,9 @@ fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let browse = params_grid(ui, &grid, &mut edit, &mut default);
     draft.commands.extend(browse.map(Action::Browse));
     idle_tool(ui, draft.planet, &edit.tool);
+    if let Some(mask) = paint_mask(ui, &edit, &name) {
+        state.take_mask_named(draft.planet, &mask);
+    }
     if !draft.shown.filter.is_active() {
         edit_points::show(ui, &mut edit);
     }
@@ -261,12 +276,21 @@ fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     }
 }
 
+/// The button that paints the mask of an edit. Gives the name of the mask if it was clicked.
+fn paint_mask(ui: &mut egui::Ui, edit: &GroundEdit, owner: &str) -> Option<String> {
+    let mask = edit.limiting_mask()?;
+    let told = if edit.is_scattered() { "Paint where the copies lie" } else { "Paint where the edit acts" };
+    let button = ui.button(format!("Paint \u{201C}{mask}\u{201D}")).on_hover_text(format!("{told}; with Shift erase"));
+    button.accessible_name(format!("Paint mask of {owner}")).clicked().then(|| mask.to_owned())
+}
+
 /// Parameters that are not shown: those of a list, and those that a tool does not read.
 fn skipped(list: &[&'static str], tool: &Tool) -> Vec<&'static str> {
     let ground: &[&'static str] = if tool.is_paint() { &OF_GROUND } else { &[] };
     let stamp: &[&'static str] = if tool.is_stamp() { &[] } else { &OF_STAMPS };
     let fades: &[&'static str] = if matches!(tool, Tool::River(_)) { &["softness"] } else { &[] };
-    [list, ground, stamp, fades].concat()
+    let mask: &[&'static str] = if tool.reads_mask() { &[] } else { &OF_MASKED };
+    [list, ground, stamp, fades, mask].concat()
 }
 
 /// Says why a tool does nothing, or not all.
@@ -283,9 +307,13 @@ fn idle_tool(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
         ui.weak("The planet has no structure that could answer: give it one in the Structure tab.");
     }
     if let Tool::Mask(paint) = tool {
-        let is_it = |mask: &Mask| matches!(mask, Mask::Painted(painted) if painted.mask == paint.mask);
-        if !planet.layers.iter().flat_map(|layer| &layer.masks).any(is_it) {
-            ui.weak("No layer has a painted mask of this name: give one to a layer in the Terrain tab.");
+        let is_of_layer = |mask: &Mask| matches!(mask, Mask::Painted(painted) if painted.mask == paint.mask);
+        let is_of_edit = |edit: &GroundEdit| edit.limiting_mask() == Some(&*paint.mask);
+        if !planet.layers.iter().flat_map(|layer| &layer.masks).any(is_of_layer) && !planet.edits.iter().any(is_of_edit)
+        {
+            ui.weak(
+                "No layer and no edit has a mask of this name: give one to a layer in the Terrain tab, or to an edit.",
+            );
         }
     }
     let Tool::Biome(paint) = tool else { return };

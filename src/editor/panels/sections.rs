@@ -32,7 +32,7 @@ const LAYER: &[Section] = &[
 const EDIT: &[Section] = &[
     open("Tool", &["tool"]),
     open("Extent", &["radius_km", "softness", "raggedness", "seed"]),
-    folded("Acts on", &["limit", "above_m", "below_m"]),
+    folded("Acts on", &["limit", "above_m", "below_m", "mask", "outside_mask"]),
     folded("Symmetry", &["turns", "mirrored"]),
     folded("Copies", &["copies", "spread_km", "smallest"]),
 ];

@@ -13,6 +13,7 @@ use super::row_view::{LockView, RowView};
 use super::typed::{self, Allowed, typed_field};
 use super::value_text::{read_value, value_text};
 use super::{random_seed, select_all};
+use crate::planet::Planet;
 use crate::planet::param::{Domain, Param, ParamPath, Unit, Value, ValueMut};
 use eframe::egui;
 
@@ -30,6 +31,8 @@ pub struct Row<'a> {
     pub problem: Option<&'a str>,
     /// Why its value has no effect now.
     pub idle: Option<&'static str>,
+    /// The planet, for parameters that refer to other parts of it.
+    pub planet: &'a Planet,
     /// The biomes of the palette, for a parameter that refers to one.
     pub biomes: &'a [BiomeName],
     /// Whether the field for a number or a text takes the focus now.
@@ -348,6 +351,9 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> (bool,
         (Domain::File { max_chars }, ValueMut::Text(text)) => {
             return (file_field(ui, &name, text, max_chars), None);
         }
+        (Domain::MaskName { max_chars }, ValueMut::Text(text)) => {
+            focus(mask_field(ui, &name, text, max_chars, row));
+        }
         (domain, ValueMut::Text(text)) => {
             let max_chars = if let Domain::Text { max_chars } = domain { max_chars } else { usize::MAX };
             let edit = egui::TextEdit::singleline(&mut **text).char_limit(max_chars).desired_width(f32::INFINITY);
@@ -381,6 +387,28 @@ fn file_field(ui: &mut egui::Ui, name: &str, path: &mut String, max_chars: usize
         let edit = egui::TextEdit::singleline(path).char_limit(max_chars).desired_width(ui.available_width());
         ui.add(edit).accessible_name(name);
         browse
+    })
+    .inner
+}
+
+/// The name of a painted mask, and a menu of those that the planet has. Gives the field.
+fn mask_field(ui: &mut egui::Ui, name: &str, text: &mut String, max_chars: usize, row: &Row<'_>) -> egui::Response {
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        let menu = ui.menu_button("⏷", |ui| {
+            if matches!(row.default, Some(Value::Text(none)) if none.is_empty()) {
+                ui.selectable_value(text, String::new(), "None");
+            }
+            let known = row.planet.painted_masks();
+            for known in &known {
+                ui.selectable_value(text, (*known).to_owned(), *known);
+            }
+            if known.is_empty() {
+                ui.weak("No mask is painted yet: type a name, and paint it.");
+            }
+        });
+        menu.response.on_hover_text("Choose a painted mask").accessible_name(format!("Choose {name}"));
+        let edit = egui::TextEdit::singleline(text).char_limit(max_chars).desired_width(ui.available_width());
+        ui.add(edit).accessible_name(name)
     })
     .inner
 }

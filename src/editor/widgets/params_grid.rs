@@ -110,6 +110,7 @@ impl Rows<'_> {
                 default: default.map(|(_, _, value)| value),
                 problem: problem_at(grid.shown.problems, path),
                 idle: grid.shown.planet.idle(path),
+                planet: grid.shown.planet,
                 biomes: grid.biomes,
                 takes_focus: grid.shown.takes_focus(path, param.name),
                 locks: grid.shown.locks,

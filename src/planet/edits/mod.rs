@@ -61,6 +61,11 @@ params! {
         above_m: f64 = -MOST_LIMIT_M, "Only above", Unit::Metres, linear(-MOST_LIMIT_M, MOST_LIMIT_M), Stage::Height;
         /// It changes only ground below this height; at the greatest value, all ground.
         below_m: f64 = MOST_LIMIT_M, "Only below", Unit::Metres, linear(-MOST_LIMIT_M, MOST_LIMIT_M), Stage::Height;
+        /// Painted mask that limits it, by its name; empty for none. It acts as far as the mask is painted; of several
+        /// copies of a stamp the mask decides where they lie. Rivers and the mask tool ignore it.
+        mask: String = String::new(), "Mask", Unit::None, Domain::MaskName { max_chars: 48 }, Stage::Height;
+        /// Whether it acts where the mask is not painted.
+        outside_mask: bool = false, "Outside the mask", Unit::None, Domain::Flag, Stage::Height;
         /// Distance from its line, or from the middle of a stamp, to where it ends; for a crater, to the rim; for a
         /// river, how far it may stray from its line.
         radius_km: f64 = 50.0, "Radius", Unit::Kilometres, log(0.001, 5000.0), Stage::Height;
@@ -77,7 +82,7 @@ params! {
         /// Of a stamp: how many copies are scattered around each of its points.
         copies: u32 = 1, "Copies", Unit::None, count(1, MAX_COPIES), Stage::Height;
         /// Of a stamp: distance from each point within which its copies lie.
-        spread_km: f64 = 0.0, "Spread", Unit::Kilometres, log(0.0, 5000.0), Stage::Height;
+        spread_km: f64 = 0.0, "Spread", Unit::Kilometres, log(0.0, 20_000.0), Stage::Height;
         /// Of a stamp: size of the smallest copy, as a share of the radius and of all heights. Small ones are many, as
         /// craters are: half the size, four times the number.
         smallest: f64 = 0.3, "Smallest", Unit::None, linear(0.05, 1.0), Stage::Height;
@@ -91,6 +96,16 @@ params! {
 }
 
 impl GroundEdit {
+    /// The name of the painted mask that limits it. None if none does.
+    pub fn limiting_mask(&self) -> Option<&str> {
+        (self.tool.reads_mask() && !self.mask.is_empty()).then_some(&*self.mask)
+    }
+
+    /// Whether a painted mask decides where its copies lie.
+    pub fn is_scattered(&self) -> bool {
+        self.tool.is_stamp() && self.copies > 1 && self.limiting_mask().is_some()
+    }
+
     /// A new edit with this tool. The outlines of land and of clouds are ragged, and rivers wind.
     pub fn of(tool: Tool) -> Self {
         let raggedness = match tool {

@@ -54,8 +54,8 @@ kinds! {
     Biome(BiomePaint) = "Biome",
     /// Paints where clouds gather and where the sky clears. Clouds drift through the painted places.
     Clouds(CloudPaint) = "Clouds",
-    /// Paints a mask: layers that name it act where it is painted.
-    Mask(MaskPaint) = "Mask of layers",
+    /// Paints a mask: layers and edits that name it act where it is painted.
+    Mask(MaskPaint) = "Mask",
     /// Paints how far rock rises while the rivers of the structure carve it: a range with valleys, or land out of the
     /// sea.
     Uplift(UpliftPaint) = "Uplift",
@@ -97,6 +97,11 @@ impl Tool {
     pub fn is_paint(&self) -> bool {
         matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_) | Tool::Mask(_))
             || self.is_structural()
+    }
+
+    /// Whether a painted mask limits edits with the tool.
+    pub fn reads_mask(&self) -> bool {
+        !matches!(self, Tool::Mask(_) | Tool::River(_))
     }
 
     /// Whether the tool changes what the structure is solved from: its rivers answer. Without a structure it does
@@ -362,8 +367,8 @@ params! {
 params! {
     /// `v + (1 - v) * amount * w`; a negative amount erases: `v + v * amount * w`
     pub struct MaskPaint {
-        /// Name of the mask. The masks of layers refer to it by this name.
-        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::Text { max_chars: 48 },
+        /// Name of the mask. Layers and edits refer to it by this name.
+        mask: String = FIRST_PAINTED.to_owned(), "Painted mask", Unit::None, Domain::MaskName { max_chars: 48 },
             Stage::Height;
         /// Share of the way to full paint; negative erases.
         amount: f64 = 1.0, "Amount", Unit::None, linear(-1.0, 1.0), Stage::Height;

@@ -100,6 +100,11 @@ pub enum Domain {
         /// Most characters allowed.
         max_chars: usize,
     },
+    /// The name of a painted mask: at most this many characters.
+    MaskName {
+        /// Most characters allowed.
+        max_chars: usize,
+    },
     /// The path of a file, relative to the preset's folder or absolute; at most this many characters.
     File {
         /// Most characters allowed.
@@ -160,7 +165,9 @@ impl Param {
             Domain::Count { min, max } => format!("{min} to {max}"),
             Domain::Triple { max } => format!("0 to {max}{gap}{unit} each"),
             Domain::Color => "0 to 1 each".to_owned(),
-            Domain::Text { max_chars } | Domain::File { max_chars } => format!("at most {max_chars} characters"),
+            Domain::Text { max_chars } | Domain::MaskName { max_chars } | Domain::File { max_chars } => {
+                format!("at most {max_chars} characters")
+            }
             Domain::Letter | Domain::BiomeKey => "one letter, digit or punctuation mark".to_owned(),
             Domain::Curve { most, .. } => {
                 format!("2 to {MAX_CURVE_POINTS} points, each from {} to {most}{gap}{unit}", -most)

@@ -64,7 +64,7 @@ pub enum ValueMut<'a> {
     Flag(&'a mut bool),
     /// See [`Domain::Color`] and [`Domain::Triple`].
     Triple(&'a mut [f64; 3]),
-    /// See [`Domain::Text`] and [`Domain::File`].
+    /// See [`Domain::Text`], [`Domain::MaskName`] and [`Domain::File`].
     Text(&'a mut String),
     /// See [`Domain::Letter`] and [`Domain::BiomeKey`].
     Letter(&'a mut char),
@@ -143,7 +143,10 @@ impl Value {
                     Some(format!("{bad} is not a finite number; use {}", param.range_text()))
                 }
             }
-            (Value::Text(v), Domain::Text { max_chars } | Domain::File { max_chars }) => {
+            (
+                Value::Text(v),
+                Domain::Text { max_chars } | Domain::MaskName { max_chars } | Domain::File { max_chars },
+            ) => {
                 if v.chars().count() > max_chars {
                     Some(format!("{} characters are too many; use {}", v.chars().count(), param.range_text()))
                 } else if v.chars().any(char::is_control) {

@@ -2,6 +2,8 @@
 
 use super::gullies::{Carved, Gullies};
 use super::index::{Hash, Piece, chord_of};
+use super::limits::Limits;
+use super::mask::{EditMask, ShareAt};
 use super::nearest::Nearest;
 use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
@@ -10,10 +12,10 @@ use super::reading::{Read, Reader};
 use super::smooth::Lattice;
 use super::stamp::{Stamp, Stamped};
 use super::structural::StructurePaint;
-use super::tool::{At, Change, CompiledTool, falloff, rise};
+use super::tool::{At, CompiledTool, falloff, rise};
 use super::widening::Widening;
-use crate::planet::edits::{EditBlend, MOST_LIMIT_M};
-use crate::planet::{GroundEdit, Limit, Tool};
+use crate::planet::edits::EditBlend;
+use crate::planet::{GroundEdit, Tool};
 use glam::DVec3;
 
 /// Arcs of a piece.
@@ -24,8 +26,6 @@ const WIDEST_RAD: f64 = 1.2;
 const LEAST_POINTS: f64 = 2.0;
 /// Bounds are wider than the formulas say, for rounding.
 const ROUNDING_M: f64 = 1e-4;
-/// Least height over which an edit that is limited to heights begins at its limit.
-const LEAST_RAMP_M: f64 = 1.0;
 
 /// An edit, compiled.
 #[derive(Clone, Debug)]
@@ -51,8 +51,9 @@ pub(super) struct CompiledEdit {
     /// How the edit reads the ground around a point.
     pub(super) reader: Option<Reader>,
     blend: EditBlend,
-    /// Heights at which the edit ends, and whether it acts above each.
-    limits: [Option<(f64, bool)>; 3],
+    limits: Limits,
+    /// The painted mask that limits it.
+    pub(super) mask: Option<EditMask>,
     /// What it does to the bounds of heights. Conservative.
     pub(super) range: Widening,
     /// Hash of what the edit depends on besides its own numbers; part of the hashes of its pieces.
@@ -84,6 +85,8 @@ pub(super) struct Effect<'a> {
     pub(super) change_m: f64,
     /// Derivative of the new height by the old one.
     pub(super) by_ground: f64,
+    /// Derivative of the change by the share that a mask leaves of it.
+    pub(super) by_share: f64,
     /// Gradient by the distance from the line, without noise; the size of what makes it.
     smooth: DVec3,
     feature_rad: f64,
@@ -126,7 +129,8 @@ impl Effect<'_> {
 }
 
 impl CompiledEdit {
-    pub(super) fn new(edit: &GroundEdit, radius_m: f64, sea_m: Option<f64>) -> Self {
+    /// `scatter`: the mask that decides where copies lie, see [`path::places`].
+    pub(super) fn new(edit: &GroundEdit, radius_m: f64, sea_m: Option<f64>, scatter: Option<ShareAt<'_>>) -> Self {
         let radius_rad = edit.radius_km * 1000.0 / radius_m;
         let reader = match &edit.tool {
             Tool::Smooth(smooth) => Some(Reader::Smooth(Lattice::new(smooth.size * radius_rad))),
@@ -137,7 +141,8 @@ impl CompiledEdit {
         let depth_m = if let Some(Reader::Gullies(gullies)) = &reader { gullies.depth_m() } else { 0.0 };
         let tool = CompiledTool::new(edit, sea_m.unwrap_or(0.0), depth_m);
         let points = &edit.points.0;
-        let mut arcs = if edit.tool.is_stamp() { path::places(edit, radius_m) } else { path::arcs(points, radius_rad) };
+        let mut arcs =
+            if edit.tool.is_stamp() { path::places(edit, radius_m, scatter) } else { path::arcs(points, radius_rad) };
         match tool {
             // Most in the middle; a closed line slips evenly.
             CompiledTool::Fault { .. } => path::set_values(&mut arcs, |from, to| match from + to {
@@ -149,16 +154,6 @@ impl CompiledEdit {
         }
         let has_sides = matches!(tool, CompiledTool::Fault { .. } | CompiledTool::Coast { .. });
         path::add_images(&mut arcs, edit, has_sides);
-        let sea_limit = match edit.limit {
-            Limit::Everywhere => None,
-            Limit::AboveSea => Some((sea_m.unwrap_or(0.0), true)),
-            Limit::BelowSea => Some((sea_m.unwrap_or(0.0), false)),
-        };
-        let limits = [
-            sea_limit,
-            (edit.above_m > -MOST_LIMIT_M).then_some((edit.above_m, true)),
-            (edit.below_m < MOST_LIMIT_M).then_some((edit.below_m, false)),
-        ];
         let rough = match &edit.tool {
             Tool::Roughen(rough) => Some(Noise::new(edit.seed ^ 0x5C07, rough.wavelength_km * 1000.0 / radius_m)),
             _ => None,
@@ -183,7 +178,8 @@ impl CompiledEdit {
             stamp,
             reader,
             blend: edit.blend,
-            limits,
+            limits: Limits::new(edit, sea_m),
+            mask: edit.limiting_mask().filter(|_| !edit.is_scattered()).map(|name| EditMask::new(name, edit)),
             range: tool.range(heights_m).then(Widening::by(ROUNDING_M, ROUNDING_M)),
             context: 0,
             tool,
@@ -203,10 +199,9 @@ impl CompiledEdit {
         common.add_f64(self.raggedness);
         common.add(u64::from(edit.seed));
         common.add(self.blend as u64);
-        for limit in self.limits {
-            let (level_m, above) = limit.unwrap_or((f64::MAX, true));
-            common.add_f64(level_m);
-            common.add(u64::from(above));
+        self.limits.hash(&mut common);
+        if let Some(mask) = &self.mask {
+            mask.hash(&mut common);
         }
         if let Tool::Roughen(rough) = &edit.tool {
             common.add_f64(rough.wavelength_km);
@@ -348,6 +343,7 @@ impl CompiledEdit {
         Some(Effect {
             change_m: weight * taper.strength,
             by_ground: 0.0,
+            by_share: weight * taper.strength,
             smooth: outward + along,
             feature_rad: radius_rad * (1.0 - self.core).max(0.1),
             ground: DVec3::ZERO,
@@ -358,7 +354,7 @@ impl CompiledEdit {
     }
 
     /// What the edit does at a point within reach, to ground of a height, by these of its arcs. None if nothing.
-    /// `read`: what it has read of the ground around.
+    /// `read`: what it has read of the ground around. `share`: what a mask leaves of the effect.
     #[inline]
     pub(super) fn effect(
         &self,
@@ -366,6 +362,7 @@ impl CompiledEdit {
         (nearest, arcs): (&Nearest, &[u32]),
         ground_m: f64,
         read: Option<Read>,
+        share: f64,
     ) -> Option<Effect<'_>> {
         let arc = &self.arcs[nearest.arc as usize];
         let taper = arc.taper(dir);
@@ -416,10 +413,7 @@ impl CompiledEdit {
             side,
             scale: arc.scale,
         };
-        let mut change = self.tool.change(&at).times(taper.strength);
-        for (level_m, above) in self.limits.into_iter().flatten() {
-            change = limited(change, ground_m, level_m, above);
-        }
+        let change = self.limits.applied(self.tool.change(&at).times(taper.strength * share), ground_m);
         let stays = match self.blend {
             EditBlend::Both => false,
             EditBlend::Raise => change.change_m <= 0.0,
@@ -439,14 +433,15 @@ impl CompiledEdit {
             false if has_sides && nearest.inside => arc.leftward(dir) * side,
             false => away(dir, arc.foot(dir, nearest.inside).dir),
         };
-        let along =
-            taper.strength_by * change.by_strength - taper.width_by * (change.by_t * stretch * plain / taper.width);
+        let along = taper.strength_by * (change.by_strength * share)
+            - taper.width_by * (change.by_t * stretch * plain / taper.width);
         let line_by_dir = line.map_or(DVec3::ZERO, |line| line.1) * change.by_line;
         let (line_by_dir, ground) =
             if smooth.is_some() { (DVec3::ZERO, line_by_dir) } else { (line_by_dir, DVec3::ZERO) };
         Some(Effect {
             change_m: change.change_m,
             by_ground: 1.0 + change.by_ground,
+            by_share: change.by_strength * taper.strength,
             smooth: outward * (change.by_t * stretch / radius_rad) + line_by_dir + along,
             feature_rad: radius_rad * (1.0 - self.core).max(0.1),
             ground,
@@ -469,29 +464,4 @@ impl CompiledEdit {
 fn away(dir: DVec3, from: DVec3) -> DVec3 {
     let apart = dir - from;
     (apart - dir * dir.dot(apart)).normalize_or_zero()
-}
-
-/// A change of the ground above or below a level alone. It begins at the level, over as much height as it changes, so
-/// that no coast becomes a cliff.
-fn limited(change: Change, ground_m: f64, level_m: f64, above: bool) -> Change {
-    let over_m = if above { ground_m - level_m } else { level_m - ground_m };
-    if over_m <= 0.0 {
-        return Change::default();
-    }
-    let size_m = change.change_m.abs();
-    let ramp_m = size_m.max(LEAST_RAMP_M);
-    let (share, by_share) = rise(over_m / ramp_m);
-    let sign = if above { 1.0 } else { -1.0 };
-    // The ramp grows with the change.
-    let grows = if size_m > LEAST_RAMP_M { change.change_m.signum() } else { 0.0 };
-    let by_ramp = -change.change_m * by_share * over_m / (ramp_m * ramp_m) * grows;
-    let by_change = share + by_ramp;
-    Change {
-        change_m: change.change_m * share,
-        by_ground: change.by_ground * by_change + change.change_m * by_share * sign / ramp_m,
-        by_t: change.by_t * by_change,
-        by_noise: change.by_noise * by_change,
-        by_line: change.by_line * by_change,
-        by_strength: change.by_strength * by_change,
-    }
 }

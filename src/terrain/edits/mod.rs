@@ -9,7 +9,9 @@
 //! - `memory`: what those have found out, node by node
 //! - `stamp`: height pictures as stamps
 //! - `paint`: painted climate and clouds
-//! - `mask`: painted masks of layers
+//! - `mask`: painted masks of layers and of other edits
+//! - `scatter`: copies of stamps whose places follow a mask
+//! - `limits`: heights to which an edit is limited
 //! - `structural`: paint of a structure, and rivers whose courses are drawn
 //! - `outline`: noise for ragged outlines and rough ground
 //! - `compiled`: one edit: its tool, its line, the pieces of that line
@@ -29,6 +31,7 @@ mod context;
 mod gullies;
 mod index;
 mod leaves;
+mod limits;
 mod mask;
 mod memory;
 mod near;
@@ -38,6 +41,7 @@ mod paint;
 mod path;
 mod reading;
 mod roster;
+mod scatter;
 mod smooth;
 mod stamp;
 mod structural;
@@ -88,6 +92,31 @@ pub(crate) struct Edits {
     key: Key,
     /// Whether an edit reads the ground around a point.
     reads: bool,
+    masked: Masked,
+}
+
+/// Which edits painted masks limit: whether one of the ground, of the climate, of clouds, of the structure.
+#[derive(Clone, Copy, Debug, Default)]
+struct Masked {
+    ground: bool,
+    climate: bool,
+    clouds: bool,
+    structure: bool,
+}
+
+impl Masked {
+    fn of(roster: &Roster) -> Self {
+        let mut masked = Self::default();
+        for edit in roster.edits().filter(|edit| edit.mask.is_some()) {
+            match edit.paint() {
+                None => masked.ground = true,
+                Some(Paint::Clouds { .. }) => masked.clouds = true,
+                Some(Paint::Structure(_)) => masked.structure = true,
+                Some(_) => masked.climate = true,
+            }
+        }
+        masked
+    }
 }
 
 /// The ground before an edit, for those that read it around a point.
@@ -157,19 +186,22 @@ impl Edits {
             places: Places::default(),
             key,
             reads: false,
+            masked: Masked::default(),
         }
     }
 
     /// Those of the next revision.
     fn next(&self, planet: &Planet, world: World) -> Self {
         profiling::scope!("compile edits");
-        let compile = |shared: &Arc<Shared>| Arc::new(CompiledEdit::new(&shared.edit, world.radius_m, world.sea_m));
-        let (mut roster, changes) = self.roster.next(&planet.edits, compile);
+        let compile =
+            |shared: &Arc<Shared>| Arc::new(CompiledEdit::new(&shared.edit, world.radius_m, world.sea_m, None));
+        let (mut roster, mut changes) = self.roster.next(&planet.edits, compile);
+        let masks = self.masks.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_mask));
+        scatter::refresh(&mut roster, &mut changes, &masks, world);
         let is_ground = |edit: &CompiledEdit| edit.paint().is_none();
         let mut ground = self.ground.next(&roster, &changes, is_ground);
         let climate = self.climate.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_climate));
         let clouds = self.clouds.next(&roster, &changes, |edit| matches!(edit.paint(), Some(Paint::Clouds { .. })));
-        let masks = self.masks.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_mask));
         let structural = self.structural.next(&roster, &changes, |edit| edit.structure_paint().is_some());
         let courses =
             if changes.is_empty() { self.courses.clone() } else { structural::courses_of(&roster, world.radius_m) };
@@ -180,7 +212,9 @@ impl Edits {
         }
         let places = self.places.next(planet, painted_biomes(planet, &climate));
         let reads = roster.reading().next().is_some();
-        Self { roster, key: ground.key_of_all(), ground, climate, places, clouds, masks, structural, courses, reads }
+        let masked = Masked::of(&roster);
+        let key = ground.key_of_all();
+        Self { roster, key, ground, climate, places, clouds, masks, structural, courses, reads, masked }
     }
 
     /// The same edits on a planet whose biome table may be another.
@@ -194,28 +228,37 @@ impl Edits {
 
     /// The key of all edits of the ground. None if there is none.
     pub(crate) fn key(&self) -> Option<Key> {
-        (!self.ground.is_empty()).then_some(self.key)
+        (!self.ground.is_empty()).then(|| Self::with_masks(self.key, self.masked.ground, || self.mask_key()))
     }
 
     /// The key of all paint of clouds. None if there is none.
     pub(crate) fn cloud_key(&self) -> Option<Key> {
-        (!self.clouds.is_empty()).then(|| self.clouds.key_of_all())
+        (!self.clouds.is_empty())
+            .then(|| Self::with_masks(self.clouds.key_of_all(), self.masked.clouds, || self.mask_key()))
     }
 
     /// The key of all paint of the climate. None if there is none.
     pub(crate) fn paint_key(&self) -> Option<Key> {
-        (!self.climate.is_empty()).then(|| Key::of(&(self.climate.key_of_all(), &self.places.places)))
+        let key = || Key::of(&(self.climate.key_of_all(), &self.places.places));
+        (!self.climate.is_empty()).then(|| Self::with_masks(key(), self.masked.climate, || self.mask_key()))
     }
 
     /// The key of the edits that touch a node and the ground close around it. None if none does.
     pub(crate) fn key_near(&self, id: NodeId) -> Option<Key> {
-        self.ground.key_near(id, &self.roster)
+        let key = self.ground.key_near(id, &self.roster)?;
+        Some(Self::with_masks(key, self.masked.ground, || self.mask_key_near(id)))
     }
 
     /// The key of paint of the climate that touches a node and the ground close around it. None if none does.
     pub(crate) fn paint_key_near(&self, id: NodeId) -> Option<Key> {
         let key = self.climate.key_near(id, &self.roster)?;
-        Some(Key::of(&(key, &self.places.places)))
+        let key = Key::of(&(key, &self.places.places));
+        Some(Self::with_masks(key, self.masked.climate, || self.mask_key_near(id)))
+    }
+
+    /// A key of edits with that of the masks, if masks limit some of them.
+    fn with_masks(key: Key, is_masked: bool, masks: impl FnOnce() -> Option<Key>) -> Key {
+        if is_masked { masks().map_or(key, |masks| Key::of(&(key, masks))) } else { key }
     }
 
     /// Changes the heights of points, and their gradients for each of the spacings. `before`: only by the edits before
@@ -235,14 +278,21 @@ impl Edits {
             let reader = edit.reader.as_ref();
             let around =
                 reader.map(|reader| (reader, reader.read(slot, hits.iter().map(|hit| dirs[hit.point]), ground)));
-            for Hit { point: i, nearest } in hits {
-                let (i, dir) = (*i, dirs[*i]);
+            let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), spacings_rad);
+            for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
+                let (i, dir, share) = (*i, dirs[*i], shares.of(own));
+                if share <= 0.0 {
+                    continue;
+                }
                 let read = around.as_ref().and_then(|(reader, around)| reader.at(dir, around));
-                let Some(effect) = edit.effect(dir, (nearest, arcs), heights.height_m[i], read) else { continue };
+                let Some(effect) = edit.effect(dir, (nearest, arcs), heights.height_m[i], read, share) else {
+                    continue;
+                };
                 heights.height_m[i] = (heights.height_m[i] + effect.change_m).clamp(limits_m.0, limits_m.1);
-                for (gradient, &spacing_rad) in heights.gradients.iter_mut().zip(spacings_rad) {
-                    let before = components(gradient, i);
-                    set_components(gradient, i, before * effect.by_ground + effect.gradient(spacing_rad));
+                let masks = shares.gradients(own).iter().copied().chain(std::iter::repeat(DVec3::ZERO));
+                for ((gradient, &spacing_rad), mask) in heights.gradients.iter_mut().zip(spacings_rad).zip(masks) {
+                    let before = components(gradient, i) * effect.by_ground;
+                    set_components(gradient, i, before + effect.gradient(spacing_rad) + mask * effect.by_share);
                 }
             }
         });
@@ -261,8 +311,9 @@ impl Edits {
             |_, _| true,
             |Touch { edit, hits, .. }| {
                 let Some(paint) = edit.paint() else { return };
-                for Hit { point: i, nearest } in hits {
-                    let weight = edit.weight(dirs[*i], nearest);
+                let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), &[]);
+                for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
+                    let weight = edit.weight(dirs[*i], nearest) * shares.of(own);
                     if weight > 0.0 {
                         painted.resize(dirs.len(), Painted::NONE);
                         paint.apply(&mut painted[*i], weight, |key| self.places.of(key));
@@ -281,8 +332,10 @@ impl Edits {
             dirs,
             |_, _| true,
             |Touch { edit, hits, .. }| {
-                if let Some(Paint::Clouds { odds }) = edit.paint() {
-                    hits.iter().for_each(|hit| each(hit.point, odds * edit.weight(dirs[hit.point], &hit.nearest)));
+                let Some(Paint::Clouds { odds }) = edit.paint() else { return };
+                let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), &[]);
+                for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
+                    each(*i, odds * edit.weight(dirs[*i], nearest) * shares.of(own));
                 }
             },
         );

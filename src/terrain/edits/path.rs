@@ -1,6 +1,7 @@
 //! The line through the points of an edit: a smooth curve (cubic Hermite with the tangents of Catmull and Rom 1974),
 //! cut into arcs of great circles. Distances are to the nearest arc.
 
+use super::mask::ShareAt;
 use crate::planet::{EditPoint, GroundEdit};
 use crate::sphere::geo::east_north;
 use crate::world::noise::mix;
@@ -10,6 +11,11 @@ use glam::DVec3;
 const MOST_ARCS: f64 = 16.0;
 /// How far an arc may lie from the curve, as a share of the radius of the edit.
 const TOLERANCE: f64 = 0.01;
+/// Places that are tried for a copy that a mask decides about.
+const TRIES: u64 = 64;
+/// Numbers of the random numbers of a copy: of further places, and of whether a mask lets it stay.
+const MORE: u64 = 100;
+const CHANCE: u64 = 1000;
 
 /// An arc of a great circle from `a` to `b`, or a single place.
 #[derive(Clone, Copy, Debug)]
@@ -181,33 +187,71 @@ pub(super) fn angle_of(chord2: f64) -> f64 {
     2.0 * libm::asin((0.5 * chord2.sqrt()).min(1.0))
 }
 
-/// The places of a stamp and of its copies. A copy lies anywhere within the spread with equal chance; the number of
-/// copies above a size falls with its square.
-pub(super) fn places(edit: &GroundEdit, radius_m: f64) -> Vec<Arc> {
+/// The places of a stamp and of its copies. A copy lies anywhere within the spread with equal chance, or as dense as
+/// the share of a mask; the number of copies above a size falls with its square.
+pub(super) fn places(edit: &GroundEdit, radius_m: f64, scatter: Option<ShareAt<'_>>) -> Vec<Arc> {
     let spread_rad = (edit.spread_km * 1000.0 / radius_m).min(std::f64::consts::PI);
-    let mut places = Vec::new();
-    for (number, point) in edit.points.0.iter().enumerate() {
-        let middle = point.direction();
+    let place = |at: DVec3, point: &EditPoint| {
         let (widths, strengths) = ([point.width; 2], [point.strength; 2]);
-        for copy in 0..edit.copies.max(1) {
-            if edit.copies <= 1 {
-                places.push(Arc { widths, strengths, ..Arc::new(middle, middle, [0.0; 2]) });
-                continue;
-            }
-            let seed = mix(u64::from(edit.seed) << 32 | u64::from(copy)).wrapping_add(mix(number as u64));
-            let random = |k: u64| (mix(seed.wrapping_add(k)) >> 11) as f64 / (1_u64 << 53) as f64;
-            // Equal areas of the cap have equal chance.
-            let cosine = 1.0 - random(1) * (1.0 - libm::cos(spread_rad));
-            let (sine, turn) = ((1.0 - cosine * cosine).max(0.0).sqrt(), random(2) * std::f64::consts::TAU);
-            let (east, north) = east_north(middle);
-            let at = (middle * cosine + (east * libm::cos(turn) + north * libm::sin(turn)) * sine).normalize();
-            let least = edit.smallest;
-            let scale = least / (1.0 - random(3) * (1.0 - least * least)).sqrt();
-            let turned = 2.0 * random(4) - 1.0;
-            places.push(Arc { scale, turned, widths, strengths, ..Arc::new(at, at, [0.0; 2]) });
+        Arc { widths, strengths, ..Arc::new(at, at, [0.0; 2]) }
+    };
+    if edit.copies <= 1 {
+        return edit.points.0.iter().map(|point| place(point.direction(), point)).collect();
+    }
+    let middles: Vec<DVec3> = edit.points.0.iter().map(EditPoint::direction).collect();
+    let copies: Vec<Copy> = (0..middles.len())
+        .flat_map(|point| (0..edit.copies).map(move |copy| (point, copy)))
+        .map(|(point, copy)| Copy::new(edit.seed, point, copy))
+        .collect();
+    let mut at: Vec<Option<DVec3>> = vec![None; copies.len()];
+    let mut left: Vec<usize> = (0..copies.len()).collect();
+    for number in 0..if scatter.is_some() { TRIES } else { 1 } {
+        let tried: Vec<DVec3> =
+            left.iter().map(|&i| copies[i].try_within(spread_rad, middles[copies[i].point], number)).collect();
+        let shares = scatter.map(|scatter| scatter(&tried));
+        let mut place = 0..tried.len();
+        left.retain(|&i| {
+            let Some(place) = place.next() else { return true };
+            let stays = shares.as_ref().is_none_or(|shares| copies[i].random(CHANCE + number) < shares[place]);
+            at[i] = stays.then_some(tried[place]);
+            !stays
+        });
+        if left.is_empty() {
+            break;
         }
     }
-    places
+    let lies = |(copy, at): (&Copy, Option<DVec3>)| {
+        let least = edit.smallest;
+        let scale = least / (1.0 - copy.random(3) * (1.0 - least * least)).sqrt();
+        Some(Arc { scale, turned: 2.0 * copy.random(4) - 1.0, ..place(at?, &edit.points.0[copy.point]) })
+    };
+    copies.iter().zip(at).filter_map(lies).collect()
+}
+
+/// A copy of a stamp around one of its points.
+struct Copy {
+    point: usize,
+    seed: u64,
+}
+
+impl Copy {
+    fn new(seed: u32, point: usize, copy: u32) -> Self {
+        Self { point, seed: mix(u64::from(seed) << 32 | u64::from(copy)).wrapping_add(mix(point as u64)) }
+    }
+
+    /// A random number from 0 to 1.
+    fn random(&self, number: u64) -> f64 {
+        (mix(self.seed.wrapping_add(number)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A place within an angle of a direction, one of many. Equal areas have equal chance.
+    fn try_within(&self, spread_rad: f64, middle: DVec3, number: u64) -> DVec3 {
+        let first = if number == 0 { 1 } else { MORE + 2 * number };
+        let cosine = 1.0 - self.random(first) * (1.0 - libm::cos(spread_rad));
+        let (sine, turn) = ((1.0 - cosine * cosine).max(0.0).sqrt(), self.random(first + 1) * std::f64::consts::TAU);
+        let (east, north) = east_north(middle);
+        (middle * cosine + (east * libm::cos(turn) + north * libm::sin(turn)) * sine).normalize()
+    }
 }
 
 /// The arcs of the curve through points, for an edit of this radius.

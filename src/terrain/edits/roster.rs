@@ -20,6 +20,8 @@ struct Entry {
     slot: u32,
     /// Whether it reads the ground around a point.
     reads: bool,
+    /// Whether a mask decides where its copies lie.
+    scatters: bool,
 }
 
 /// The edits that are on.
@@ -103,7 +105,8 @@ impl Roster {
                     let moved = at.and_then(|at| self.slots[self.entries[at].slot as usize].clone());
                     let slot = next.take_slot(moved.unwrap_or_else(|| compile(shared)));
                     changes.added.push(slot);
-                    Entry { shared: (*shared).clone(), slot, reads: shared.edit.tool.reads_ground() }
+                    let (reads, scatters) = (shared.edit.tool.reads_ground(), shared.edit.is_scattered());
+                    Entry { shared: (*shared).clone(), slot, reads, scatters }
                 }
             })
             .collect();
@@ -159,8 +162,13 @@ impl Roster {
         self.ranks.get(slot as usize).copied().unwrap_or(0)
     }
 
+    /// The edits whose copies are scattered over a mask, in order, with their slots.
+    pub(super) fn scattered(&self) -> Vec<(u32, Arc<Shared>)> {
+        let scattered = self.entries.iter().filter(|entry| entry.scatters);
+        scattered.map(|entry| (entry.slot, entry.shared.clone())).collect()
+    }
+
     /// The edits that are on, compiled, in order.
-    #[cfg(feature = "bake")]
     pub(super) fn edits(&self) -> impl Iterator<Item = &Arc<CompiledEdit>> {
         self.entries.iter().filter_map(|entry| self.edit(entry.slot))
     }

@@ -27,7 +27,8 @@ impl Edits {
     /// The key of all edits of the structure. None if there is none.
     pub(crate) fn structure_key(&self) -> Option<Key> {
         let is_none = self.structural.is_empty() && self.courses.is_empty();
-        (!is_none).then(|| Key::of(&(self.structural.key_of_all(), &self.courses)))
+        let key = || Key::of(&(self.structural.key_of_all(), &self.courses));
+        (!is_none).then(|| Self::with_masks(key(), self.masked.structure, || self.mask_key()))
     }
 
     /// Rivers whose courses are drawn by hand, in the order of the edits.
@@ -48,8 +49,9 @@ impl Edits {
             let all = |_: u32, _: &CompiledEdit| true;
             Near::default().each_touch(&self.structural, &self.roster, dirs, all, |Touch { edit, hits, .. }| {
                 let Some(paint) = edit.structure_paint() else { return };
-                for Hit { point: i, nearest } in hits {
-                    let (i, weight) = (*i, edit.weight(dirs[*i], nearest));
+                let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), &[]);
+                for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
+                    let (i, weight) = (*i, edit.weight(dirs[*i], nearest) * shares.of(own));
                     match paint {
                         StructurePaint::Uplift { uplift_m: by_m } => uplift_m[i] += by_m * weight,
                         StructurePaint::Rock { hardness: by } => hardness[i] += by * weight,
