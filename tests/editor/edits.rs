@@ -100,3 +100,53 @@ fn a_line_tapers_by_its_points_and_a_pen_that_presses_lightly_does_little() {
     assert!(tapered[0] == 0.1 && tapered[count - 1] == 0.1 && tapered[count / 2] > 0.8, "{tapered:?}");
     assert!(harness.query_by_label("Width of point 1").is_some());
 }
+
+#[test]
+fn an_edit_gets_a_mask_by_name_that_is_painted_and_chosen_from_the_menu() {
+    let mut small = small();
+    let everywhere = GroundEdit {
+        name: "Plateau".to_owned(),
+        radius_km: 1500.0,
+        softness: 0.1,
+        points: [EditPoint { latitude_deg: 10.0, longitude_deg: 20.0, ..EditPoint::default() }].into_iter().collect(),
+        ..GroundEdit::of(Tool::Raise(Raise { amount_m: 600.0 }))
+    };
+    small.edits = [everywhere].into_iter().collect();
+    let mut harness = app::open_planet_with_picture([1024.0, 640.0], small);
+    app::wait_for_picture(&mut harness);
+    app::send(&mut harness, Command::TakeTool(0));
+    app::send(&mut harness, Command::PutDownTool);
+    click(&mut harness, "Edit Plateau");
+    assert!(harness.query_by_label("Paint mask of Plateau").is_none());
+    app::unfold(&mut harness, "Acts on");
+    app::scroll_to(&mut harness, "Mask of Plateau");
+    harness.get_by_label("Mask of Plateau").focus();
+    harness.run_steps(2);
+    app::type_text(&mut harness, "Zone");
+    harness.run_steps(3);
+    assert_eq!(planet(&harness).edits.get(0).unwrap().mask, "Zone");
+    let highest_m = |harness: &app::Editor| {
+        let planet = planet(harness);
+        let at = planet.edits.get(1).map(|edit| edit.points.0[0].direction());
+        at.map(|dir| tellus::terrain::Terrain::try_new(planet.into()).unwrap().height_m(dir))
+    };
+    app::scroll_to(&mut harness, "Paint mask of Plateau");
+    click(&mut harness, "Paint mask of Plateau");
+    let middle = canvas(&harness).center();
+    stroke(&mut harness, middle, middle + egui::vec2(60.0, 0.0), egui::Modifiers::NONE);
+    assert_eq!(undo_label(&harness), "Mask");
+    assert!(highest_m(&harness).unwrap() > 500.0, "{:?}", highest_m(&harness));
+    // Shift erases.
+    stroke(&mut harness, middle, middle + egui::vec2(60.0, 0.0), egui::Modifiers::SHIFT);
+    assert!(highest_m(&harness).unwrap().abs() < 1e-6, "{:?}", highest_m(&harness));
+
+    // The menu has the masks of the planet, and none.
+    app::scroll_to(&mut harness, "Edit Plateau");
+    click(&mut harness, "Edit Plateau");
+    app::scroll_to(&mut harness, "Choose Mask of Plateau");
+    click(&mut harness, "Choose Mask of Plateau");
+    assert!(harness.query_by_label("Zone").is_some());
+    click(&mut harness, "None");
+    assert_eq!(planet(&harness).edits.get(0).unwrap().mask, "");
+    assert!(highest_m(&harness).unwrap() > 500.0, "{:?}", highest_m(&harness));
+}

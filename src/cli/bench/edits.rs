@@ -89,6 +89,11 @@ impl Bench {
         Some((last?, times))
     }
 
+    /// The surface that was finished last.
+    pub(super) fn surface(&self) -> Option<Arc<Surface>> {
+        self.builder.surface()
+    }
+
     /// Requests a planet and waits for its complete surface: seconds to the first and to the final tiles, and
     /// statistics.
     pub(super) fn settle(&self, planet: &Arc<Planet>, view: &View) -> Option<([f64; 2], BuildStats)> {

@@ -1,12 +1,14 @@
 //! Time and memory of ten thousand strokes all over a planet: full rebuilds of views near and far, with the strokes and
-//! without, and the time from one stroke more to its tiles. Once on a planet of one layer, which is the worst case, and
+//! without, and the time from one stroke more to its tiles and to its picture. Once on a planet of one layer, which is the worst case, and
 //! once on a shipped planet.
 
+use super::super::headless::Gpu;
 use super::edits::Bench;
 use super::{median, p95, repeat};
 use crate::lod::{Camera, Quality, View};
 use crate::planet::edits::{EditPoint, GroundEdit, Raise, Tool};
 use crate::planet::{Fbm, Layer, Planet, Shape};
+use crate::render::{Renderer, Reuse, Scene};
 use crate::sphere::geo::{self, east_north};
 use crate::sphere::{LatLon, NodeId};
 use crate::terrain::Terrain;
@@ -14,6 +16,7 @@ use crate::tiles::{DEFAULT_BUDGET_BYTES, Surface, build_now};
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Strokes on the planet.
 const STROKES: usize = 10_000;
@@ -24,6 +27,8 @@ const STEP_RAD: f64 = 0.004;
 const RADIUS_RAD: f64 = 0.008;
 /// Height of the eye over the ground in each view, in radii of the planet.
 const ALTITUDES: [f64; 3] = [0.035, 0.15, 0.4];
+/// Size of the pictures that strokes are drawn in.
+const PICTURE_PX: [u32; 2] = [640, 360];
 /// Strokes that are added one after the other.
 const RUNS: usize = 30;
 
@@ -61,22 +66,15 @@ fn measure_on(name: &str, bare: &Planet) -> Result<Value, String> {
 
     let (bench, view) = (Bench::new(DEFAULT_BUDGET_BYTES), view(&bare, ALTITUDES[1]));
     bench.settle(&many, &view);
-    let (mut times, mut compile_ms, mut edited) = (Vec::new(), Vec::new(), Planet::clone(&many));
-    for run in 0..RUNS {
-        // A stroke that grows as one does under the hand.
-        if run == 0 {
-            edited.edits.push(stroke(bare.radius_km, DVec3::X, 0.0, 1));
-        }
-        let last = edited.edits.len() - 1;
-        if let Some(edit) = edited.edits.get_mut(last) {
-            edit.points = stroke(bare.radius_km, middle().direction(), 0.02 * run as f64, 2).points;
-        }
-        let Some(([_, secs], stats)) = bench.settle(&Arc::new(edited.clone()), &view) else { continue };
+    let (mut times, mut compile_ms) = (Vec::new(), Vec::new());
+    for edited in one_more(&many) {
+        let Some(([_, secs], stats)) = bench.settle(&edited, &view) else { continue };
         times.push(secs * 1000.0);
         compile_ms.push(stats.compile_secs * 1000.0);
     }
     times.sort_by(f64::total_cmp);
     compile_ms.sort_by(f64::total_cmp);
+    let picture_ms = to_picture_ms(&many, view);
     Ok(json!({
         "planet": name,
         "strokes": STROKES,
@@ -84,9 +82,48 @@ fn measure_on(name: &str, bare: &Planet) -> Result<Value, String> {
         "stroke_ms": median(&times),
         "stroke_ms_p95": p95(&times),
         "stroke_compile_ms": median(&compile_ms),
+        "stroke_picture_ms": picture_ms.map(|[stroke, _]| stroke),
+        "still_picture_ms": picture_ms.map(|[_, still]| still),
         "file_mb": many.to_text().len() as f64 / 1e6,
         "memory_mb": after_mb.zip(before_mb).map(|(after, before)| after - before),
     }))
+}
+
+/// The planet with one stroke more, which grows as one does under the hand.
+fn one_more(planet: &Planet) -> impl Iterator<Item = Arc<Planet>> {
+    let strokes = (0..RUNS).map(|run| stroke(planet.radius_km, middle().direction(), 0.02 * run as f64, 2));
+    strokes.map(|stroke| {
+        let mut edited = planet.clone();
+        edited.edits.push(stroke);
+        Arc::new(edited)
+    })
+}
+
+/// Milliseconds from one stroke more to its picture, and those of a picture in which nothing changed: medians. `None`
+/// without a GPU.
+fn to_picture_ms(many: &Arc<Planet>, view: View) -> Option<[f64; 2]> {
+    let gpu = Gpu::open(PICTURE_PX).ok()?;
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue).ok()?;
+    let view = View { size_px: PICTURE_PX, quality: Quality::Low, ..view };
+    let bench = Bench::new(DEFAULT_BUDGET_BYTES);
+    let mut picture_secs = |planet: &Arc<Planet>| {
+        let start = Instant::now();
+        let (_, surface) = bench.settle(planet, &view).and_then(|(secs, _)| Some((secs, bench.surface()?)))?;
+        let scene =
+            Scene { reuse: Reuse::None, ..Scene::of_planet(&surface, view, planet.star.place(0.0).direction()) };
+        let drawn = gpu
+            .picture(PICTURE_PX, |target| renderer.render(target, &scene).map(drop).map_err(|error| error.to_string()));
+        drawn.ok().map(|_| start.elapsed().as_secs_f64())
+    };
+    // The first picture uploads and builds everything.
+    picture_secs(many)?;
+    let (mut strokes, mut still) = (Vec::new(), Vec::new());
+    for edited in one_more(many) {
+        strokes.push(picture_secs(&edited)? * 1000.0);
+        still.push(picture_secs(&edited)? * 1000.0);
+    }
+    [&mut strokes, &mut still].into_iter().for_each(|times| times.sort_by(f64::total_cmp));
+    Some([median(&strokes)?, median(&still)?])
 }
 
 fn one_layer() -> Planet {
