@@ -9,7 +9,7 @@ use super::sew::Seams;
 use super::stats::{BuildStats, Work};
 use super::{Leaf, Surface};
 use crate::lod::cull::lowest_radius_m;
-use crate::lod::tile::{DetailTile, Tile};
+use crate::lod::tile::{DetailTile, TILE_QUADS, Tile};
 use crate::lod::{Quality, Ranges, Selection, View};
 use crate::planet::Key;
 use crate::sphere::{Edge, NodeId};
@@ -19,15 +19,25 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// Triangle budget: the most tiles that the picture may show, of 2,048 triangles each. Up to half of the tiles of a
-/// surface lie outside the picture, coarser with distance; they are there for when the camera turns, and are not drawn.
-pub fn budget_tiles(quality: Quality) -> usize {
-    match quality {
-        Quality::Low => 300,
+/// Triangle budget: the most tiles that a picture of this size may show, of 2,048 triangles each. Up to half of the
+/// tiles of a surface lie outside the picture, coarser with distance; they are there for when the camera turns, and are
+/// not drawn. Small pictures have less at medium and high quality: more triangles a pixel show nothing more.
+pub fn budget_tiles(quality: Quality, size_px: [u32; 2]) -> usize {
+    let pixels = size_px.map(|px| px as usize).into_iter().fold(1, usize::saturating_mul);
+    let most = match quality {
+        Quality::Low => FEWEST_TILES,
         Quality::Medium => 500,
         Quality::High => 1200,
-    }
+    };
+    most.min(FEWEST_TILES.max(pixels.saturating_mul(TRIANGLES_PER_PIXEL) / TILE_TRIANGLES))
 }
+
+/// Triangle budget of low quality, and of very small pictures: fewer cannot fill the least ranges.
+const FEWEST_TILES: usize = 300;
+/// Triangles of a tile.
+const TILE_TRIANGLES: usize = 2 * TILE_QUADS * TILE_QUADS;
+/// Most triangles for each pixel, where the picture is not very small.
+const TRIANGLES_PER_PIXEL: usize = 24;
 
 /// LOD bias: the factor on the allowed screen-space error that makes the LOD cut fit the triangle budget, in steps of
 /// an eighth of an octave.
@@ -60,7 +70,7 @@ pub(crate) fn refine(
     let heights = terrain.tile_keys().heights;
     let start = before.as_ref().filter(|cut| cut.heights == heights && is_near(&cut.view, view, lowest_radius_m));
     let mut builder = LevelBuilder { terrain, cache, asked, stats: &mut stats, secs: 0.0 };
-    let budget = budget_tiles(view.quality);
+    let budget = budget_tiles(view.quality, view.size_px);
     let mut choose = |bias: u32| {
         let ranges = Ranges::new(view, terrain.planet().radius_m(), bias_factor(bias));
         let selection = Selection::new(view, &ranges, lowest_radius_m, start.map(|cut| &cut.split));
@@ -165,7 +175,7 @@ fn choose(
     view: &View,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Choice {
-    let (cache, budget) = (builder.cache, budget_tiles(view.quality));
+    let (cache, budget) = (builder.cache, budget_tiles(view.quality, view.size_px));
     let mut choice =
         Choice { ranges, bias, split: HashSet::new(), shaded_finer: HashSet::new(), seen: 0, complete: true };
     let eye = view.camera.position_planet_m;

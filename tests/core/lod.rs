@@ -293,7 +293,7 @@ fn a_view_never_shows_more_triangles_than_its_quality_allows() {
         let surface = build_now(&planet, &view).unwrap();
         let culling = Culling::new(&view, lowest_radius_m(&surface.terrain));
         let seen = surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).count();
-        let (most, all) = (budget_tiles(quality), surface.leaves.len());
+        let (most, all) = (budget_tiles(quality, size_px), surface.leaves.len());
         let what = format!("{}, {quality:?} {size_px:?} from {altitude_m} m: {seen} of {all}", planet.name);
         assert!(seen <= most && seen > most / 2, "{what}, {most} are allowed");
         assert_meets(&surface);
@@ -309,16 +309,20 @@ fn ground_rugged_beyond_measure_stays_within_the_budget() {
     let place = LatLon::from_degrees(12.0, 40.0);
     let ground_m = Terrain::try_new(planet.clone()).unwrap().height_m(place.direction());
     let camera = Camera::over(place, planet.radius_m() + ground_m + 100.0, 0.4, -0.1, Camera::DEFAULT_FOV_Y_RAD);
-    let view = View { camera, size_px: [160, 90], quality: Quality::Low };
-    let surface = build_now(&planet, &view).unwrap();
-    let lowest_radius_m = lowest_radius_m(&surface.terrain);
-    let culling = Culling::new(&view, lowest_radius_m);
-    let seen = surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).count();
-    let most = budget_tiles(Quality::Low);
-    assert!(seen <= most && seen > most / 2, "{seen} of {most}");
-    let selection = Selection::new(&view, &surface.ranges, lowest_radius_m, None);
-    assert!(surface.leaves.iter().any(|leaf| selection.wants_split(&leaf.tile)), "the budget was not the limit");
-    // The ground before the eye is not what is left over.
-    let finest = surface.leaves.iter().map(|leaf| leaf.tile.id.level).max();
-    assert!(finest >= Some(8), "{finest:?}");
+    // Pixels set the limit in so small a picture, whatever the quality.
+    for quality in [Quality::Low, Quality::High] {
+        let view = View { camera, size_px: [160, 90], quality };
+        let surface = build_now(&planet, &view).unwrap();
+        let lowest_radius_m = lowest_radius_m(&surface.terrain);
+        let culling = Culling::new(&view, lowest_radius_m);
+        let seen = surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).count();
+        let most = budget_tiles(quality, view.size_px);
+        assert!(seen <= most && seen > most / 2, "{seen} of {most}");
+        let selection = Selection::new(&view, &surface.ranges, lowest_radius_m, None);
+        assert!(surface.leaves.iter().any(|leaf| selection.wants_split(&leaf.tile)), "the budget was not the limit");
+        // The ground before the eye is not what is left over.
+        let finest = surface.leaves.iter().map(|leaf| leaf.tile.id.level).max();
+        assert!(finest >= Some(8), "{finest:?}");
+        assert_eq!(most, 300);
+    }
 }
