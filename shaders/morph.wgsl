@@ -9,7 +9,9 @@ struct Tile {
     first_vertex: u32,
     // Distance between neighbouring vertices, metres.
     spacing_m: f32,
-    padding: vec2u,
+    // Edges beyond which the neighbour is one level finer: left, right, bottom, top as bits.
+    finer_edges: u32,
+    padding: u32,
 }
 
 @group(0) @binding(0) var<storage, read> vertices: array<f32>;
@@ -69,7 +71,11 @@ fn compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
             let b = first + ((y + odd.y) * TILE_SIDE + to_x) * stride;
             let v = first + (y * TILE_SIDE + x) * stride;
             let word = v * VERTEX_WORDS;
-            let share = share_of(word, tile.spacing_m * f32(stride));
+            // On an edge to a finer tile, which has these vertices exact.
+            let edges = select(0u, 1u, x == 0u) | select(0u, 2u, x == side - 1u) | select(0u, 4u, y == 0u)
+                | select(0u, 8u, y == side - 1u);
+            let is_exact = stride == COARSEST_MORPHING && (edges & tile.finer_edges) != 0u;
+            let share = select(share_of(word, tile.spacing_m * f32(stride)), 1.0, is_exact);
             let ends_m = morphed[a * SHOWN_WORDS] + morphed[b * SHOWN_WORDS];
             let shift_m = 0.5 * ends_m - (1.0 - share) * vertices[word + VERTEX_DEVIATION];
             let deviation = unmorphed(word) - 0.5 * (unmorphed(a * VERTEX_WORDS) + unmorphed(b * VERTEX_WORDS));

@@ -6,6 +6,7 @@
 //! - `geojson`: features and lines for `rivers` and `coasts`
 //! - `points`: many points for `sample`
 //! - `headless`: a GPU without a window
+//! - `logging`: what is logged, and the log file of the editor
 //! - `camera`: what a photographer sets, for `render` and `film`
 //!
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
@@ -20,6 +21,7 @@ mod coasts;
 mod film;
 mod geojson;
 mod headless;
+mod logging;
 mod maps;
 mod mesh;
 mod nearest;
@@ -36,6 +38,7 @@ use crate::planet::Planet;
 use crate::planet::picture::is_contained;
 use crate::planet::printable::printable;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use logging::Logging;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -89,9 +92,7 @@ impl From<String> for Failure {
 
 /// Runs the program with the arguments of this process.
 pub fn run() -> ExitCode {
-    let filter = env_logger::Env::default().default_filter_or("error");
-    // A program that embeds this one may have a logger already.
-    let _ = env_logger::Builder::from_env(filter).try_init();
+    let logging = Logging::start();
     // A panic of a picture decoder is reported as a problem of the preset, with its line: the panic is not printed.
     let print_panic = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
@@ -111,7 +112,7 @@ pub fn run() -> ExitCode {
         }
     };
     let result = match cli.command {
-        None => edit(cli.file),
+        None => edit(cli.file, &logging),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Film(args)) => film::run(&args),
         Some(Command::Check(args)) => check::run(&args),
@@ -140,17 +141,20 @@ pub fn run() -> ExitCode {
 }
 
 #[cfg(feature = "editor")]
-fn edit(file: Option<PathBuf>) -> Result<(), Failure> {
+fn edit(file: Option<PathBuf>, logging: &Logging) -> Result<(), Failure> {
     if let Some(file) = &file {
         // Reported here rather than in a window: who typed a name on the command line reads the answer there. The
         // editor itself reports a missing picture. A name without a file is that of a new planet.
         crate::editor::check_first(file)?;
     }
+    if let Some(folder) = crate::editor::folder() {
+        logging.keep_in(&folder);
+    }
     Ok(crate::editor::run(file, maps::kept())?)
 }
 
 #[cfg(not(feature = "editor"))]
-fn edit(_: Option<PathBuf>) -> Result<(), Failure> {
+fn edit(_: Option<PathBuf>, _: &Logging) -> Result<(), Failure> {
     Err("this program was built without the editor; build it with the feature `editor`".to_owned().into())
 }
 

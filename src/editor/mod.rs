@@ -61,7 +61,7 @@ pub fn run(path: Option<PathBuf>, maps: Option<Arc<MapStore>>) -> Result<(), Str
         wgpu_options: wgpu_configuration(),
         ..Default::default()
     };
-    let folder = eframe::storage_dir(APP_ID);
+    let folder = folder();
     let doing = Doing::default();
     if let Some(folder) = &folder {
         crash::report_panics(folder, &doing);
@@ -76,6 +76,11 @@ pub fn run(path: Option<PathBuf>, maps: Option<Arc<MapStore>>) -> Result<(), Str
         Ok(Box::new(if follows_loss { app.continue_after_loss() } else { app }))
     };
     eframe::run_native(APP_ID, options, Box::new(create)).map_err(|error| explain(&error))
+}
+
+/// The folder of the editor's own files: layout, working copies, reports and log. None where the system has none.
+pub fn folder() -> Option<PathBuf> {
+    eframe::storage_dir(APP_ID)
 }
 
 /// Starts another editor with the same file, and ends this process.

@@ -7,28 +7,41 @@
 //! distances; here each vertex has its own distance.)
 //!
 //! Vertices born three or more levels before the tile's are always exact: no tile is as far from the eye as the
-//! distance at which they begin to appear ([`super::range`]).
+//! distance at which they begin to appear ([`super::range`]). Ground steeper than some 80 degrees reaches so far all the
+//! same. There a finer tile has a vertex exact that a coarser neighbour still morphs; so those of the neighbour that
+//! lie on the edge between them are exact, too, or the ground would have a gap.
 
 use super::chords::chords;
 use super::range::{FULL_AT, Ranges};
-use super::tile::{TILE_VERTICES, Tile, Vertex};
+use super::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
+use crate::sphere::Edge;
 use glam::DVec3;
 
 /// Stride of the coarsest grid of a tile whose vertices may still morph.
 pub const COARSEST_MORPHING: u16 = 4;
 
 /// Height of each drawn vertex above its exact position (negative: below), in metres along its own vertical.
-pub fn shifts_m(tile: &Tile, eye_planet_m: DVec3, ranges: &Ranges) -> Vec<f32> {
+/// `finer_edges`: edges beyond which the neighbour is one level finer, as bits of [`Edge::bit`].
+pub fn shifts_m(tile: &Tile, finer_edges: u8, eye_planet_m: DVec3, ranges: &Ranges) -> Vec<f32> {
     let eye = Split::new(eye_planet_m);
     let mut shifts_m = vec![0.0_f32; TILE_VERTICES];
     for chord in chords(false).iter().filter(|chord| chord.stride <= COARSEST_MORPHING) {
         let vertex = &tile.vertices[usize::from(chord.vertex)];
         let spacing_m = ranges.spacing_m(tile.id.level) as f32 * f32::from(chord.stride);
-        let share = share(vertex, spacing_m, &eye, ranges);
+        let is_exact = chord.stride == COARSEST_MORPHING && edges_of(chord.vertex) & finer_edges != 0;
+        let share = if is_exact { 1.0 } else { share(vertex, spacing_m, &eye, ranges) };
         let ends_m = shifts_m[usize::from(chord.younger)] + shifts_m[usize::from(chord.elder)];
         shifts_m[usize::from(chord.vertex)] = 0.5 * ends_m - (1.0 - share) * vertex.deviation_m;
     }
     shifts_m
+}
+
+/// The edges of a tile that a vertex lies on, as bits.
+fn edges_of(vertex: u16) -> u8 {
+    let (x, y) = (usize::from(vertex) % TILE_SIDE, usize::from(vertex) / TILE_SIDE);
+    let on =
+        [(Edge::Left, x == 0), (Edge::Right, x == TILE_QUADS), (Edge::Bottom, y == 0), (Edge::Top, y == TILE_QUADS)];
+    on.into_iter().filter(|(_, lies)| *lies).fold(0, |mask, (edge, _)| mask | edge.bit())
 }
 
 /// A position as the shader holds it.

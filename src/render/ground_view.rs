@@ -1,7 +1,7 @@
 //! The ground of a body in one view: the visible tiles, their instances, and the morph of their vertices.
 
 use super::body_tiles::BodyTiles;
-use super::morph::{Morph, MorphPass};
+use super::morph::{Morph, MorphPass, Morphed};
 use super::pool::Place;
 use super::scene::{Body, height_range_m};
 use super::{detail_pool, horizon_pool};
@@ -97,7 +97,7 @@ impl GroundView {
         let culling = Culling::new(chosen, (radius_m + height_range_m(surface).0).max(0.0));
         self.draws.clear();
         let mut instances: Vec<Instance> = Vec::new();
-        let mut morphed: Vec<(Place, u8)> = Vec::new();
+        let mut morphed: Vec<Morphed> = Vec::new();
         // Near tiles first, so that pixels they hide are not shaded.
         let eye = view.camera.position_planet_m;
         let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
@@ -118,7 +118,7 @@ impl GroundView {
                     .map_or([-1.0; 4], |(place, [width, x, y])| [place.layer as f32, width as f32, x as f32, y as f32]),
                 ..Instance::new(leaf, &surface.ranges, detail.map(|place| place.layer))
             });
-            morphed.push((place, leaf.tile.id.level));
+            morphed.push(Morphed { place, level: leaf.tile.id.level, finer_edges: leaf.finer_edges });
             let arrays = [detail, horizon.map(|(place, _)| place)].map(|place| place.map_or(0, |place| place.array));
             self.draws.push(Draw { place, arrays, mask: usize::from(leaf.coarser_edges & 15) });
         }

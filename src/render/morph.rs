@@ -23,7 +23,17 @@ const PART_BYTES: u64 = SLOTS as u64 * TILE_VERTICES as u64 * SHOWN_BYTES;
 struct Job {
     first_vertex: u32,
     spacing_m: f32,
-    padding: [u32; 2],
+    finer_edges: u32,
+    padding: u32,
+}
+
+/// A tile to be morphed.
+#[derive(Clone, Copy)]
+pub(crate) struct Morphed {
+    pub(crate) place: Place,
+    pub(crate) level: u8,
+    /// See [`crate::tiles::Leaf::finer_edges`].
+    pub(crate) finer_edges: u8,
 }
 
 /// The pipeline of the morph.
@@ -90,7 +100,7 @@ impl Morph {
         Self { layout: layout(device), eye, parts: Vec::new() }
     }
 
-    /// Uploads the inputs of a frame: the eye that vertices morph for, and location and level of each drawn tile.
+    /// Uploads the inputs of a frame: the eye that vertices morph for, and the drawn tiles.
     pub(crate) fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -98,7 +108,7 @@ impl Morph {
         vertices: &[wgpu::Buffer],
         ranges: &Ranges,
         eye_planet_m: DVec3,
-        tiles: &[(Place, u8)],
+        tiles: &[Morphed],
     ) {
         for vertices in &vertices[self.parts.len().min(vertices.len())..] {
             self.parts.push(Part::new(device, &self.layout, vertices, &self.eye));
@@ -116,11 +126,12 @@ impl Morph {
         for (number, part) in self.parts.iter_mut().enumerate() {
             let jobs: Vec<Job> = tiles
                 .iter()
-                .filter(|(place, _)| place.buffer == number)
-                .map(|(place, level)| Job {
-                    first_vertex: place.base_vertex.unsigned_abs(),
-                    spacing_m: ranges.spacing_m(*level) as f32,
-                    padding: [0; 2],
+                .filter(|tile| tile.place.buffer == number)
+                .map(|tile| Job {
+                    first_vertex: tile.place.base_vertex.unsigned_abs(),
+                    spacing_m: ranges.spacing_m(tile.level) as f32,
+                    finer_edges: u32::from(tile.finer_edges),
+                    padding: 0,
                 })
                 .collect();
             part.count = jobs.len() as u32;
@@ -174,7 +185,7 @@ mod tests {
     use crate::render::pool::TilePool;
     use crate::sphere::LatLon;
     use crate::terrain::Terrain;
-    use crate::tiles::build_now;
+    use crate::tiles::{Leaf, build_now};
     use std::sync::Arc;
 
     /// Content of a buffer.
@@ -218,8 +229,13 @@ mod tests {
             pool.begin_round();
             let places: Vec<Place> =
                 surface.leaves.iter().map(|leaf| pool.place(&device, &mut encoder, &leaf.tile).unwrap()).collect();
-            let tiles: Vec<(Place, u8)> =
-                places.iter().zip(&surface.leaves).map(|(place, leaf)| (*place, leaf.tile.id.level)).collect();
+            // All edges as if they had finer neighbours in the last view: there the rule shows.
+            let finer_edges = |leaf: &Leaf| if altitude_m > 1e5 { 15 } else { leaf.finer_edges };
+            let tiles: Vec<Morphed> = places
+                .iter()
+                .zip(&surface.leaves)
+                .map(|(&place, leaf)| Morphed { place, level: leaf.tile.id.level, finer_edges: finer_edges(leaf) })
+                .collect();
             morph.prepare(&device, &queue, pool.buffers(), &surface.ranges, eye, &tiles);
             pool.end_round(&encoder);
             morph.find(&mut encoder, &pass);
@@ -229,7 +245,7 @@ mod tests {
                 .collect();
             let (mut worst_px, mut on_their_way, mut morphing_tiles) = (0.0_f64, 0, 0);
             for (place, leaf) in places.iter().zip(&surface.leaves) {
-                let expected_m = shifts_m(&leaf.tile, eye, &surface.ranges);
+                let expected_m = shifts_m(&leaf.tile, finer_edges(leaf), eye, &surface.ranges);
                 let moved = |i: &usize| expected_m[*i] != 0.0;
                 let many = (0..TILE_VERTICES).filter(moved).count();
                 on_their_way += many;

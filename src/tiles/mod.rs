@@ -69,6 +69,8 @@ pub struct Leaf {
     pub tile: Arc<Tile>,
     /// Parent edges, as bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
     pub coarser_edges: u8,
+    /// Edges beyond which the neighbour is one level finer, as bits of [`crate::sphere::Edge::bit`].
+    pub finer_edges: u8,
     /// The tile whose detail texture is to be shown: this one, or an ancestor if the mesh is finer than shading needs.
     pub shading_tile: Arc<Tile>,
     /// The detail texture of `shading_tile`, or of an ancestor of it until that is there.

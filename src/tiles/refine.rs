@@ -295,7 +295,11 @@ fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
     ids.into_iter()
         .filter_map(|id| {
             let coarser = |edge: &Edge| id.neighbour(*edge).parent().is_some_and(|parent| !split.contains(&parent));
-            let coarser_edges = Edge::ALL.iter().filter(|edge| coarser(edge)).fold(0, |mask, edge| mask | edge.bit());
+            let finer = |edge: &Edge| split.contains(&id.neighbour(*edge));
+            let mask = |is: &dyn Fn(&Edge) -> bool| {
+                Edge::ALL.iter().filter(|edge| is(edge)).fold(0, |mask, edge| mask | edge.bit())
+            };
+            let (coarser_edges, finer_edges) = (mask(&coarser), mask(&finer));
             let tile = cache.tile(id)?;
             let mut shaded = id;
             while let Some(parent) = shaded.parent().filter(|parent| !choice.shaded_finer.contains(parent)) {
@@ -304,7 +308,7 @@ fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
             let shading = details.entry(shaded).or_insert_with(|| shading(shaded, cache));
             let (shading_tile, detail) = shading.clone().unwrap_or_else(|| (tile.clone(), None));
             let horizon = cache.nearest_horizon(id);
-            Some(Leaf { tile, coarser_edges, shading_tile, detail, horizon })
+            Some(Leaf { tile, coarser_edges, finer_edges, shading_tile, detail, horizon })
         })
         .collect()
 }

@@ -1,6 +1,7 @@
 //! Tests of the core: presets, evaluator, level of detail, tiles. They need neither the GPU nor the user interface.
 //!
 //! - `preset`, `heightmap`, `nonsense`: files and values, good and bad
+//! - `extremes`: valid planets at the ends of their ranges
 //! - `idle`: parameters without effect
 //! - `header`: the C header
 //! - `fuzz`: changed files of strangers
@@ -17,6 +18,7 @@
 mod allocations;
 mod atmosphere;
 mod erosion;
+mod extremes;
 mod fuzz;
 mod header;
 mod heightmap;

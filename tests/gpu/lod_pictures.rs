@@ -329,7 +329,7 @@ fn normals_change_from_a_level_to_the_next_as_the_vertices_have_them() {
     let (mut off, mut off_own, mut off_parents) = (Vec::new(), Vec::new(), Vec::new());
     for leaf in &surface.leaves {
         let end_m = surface.ranges.always_m(leaf.tile.id.level);
-        let shifts_m = shifts_m(&leaf.tile, eye, &surface.ranges);
+        let shifts_m = shifts_m(&leaf.tile, leaf.finer_edges, eye, &surface.ranges);
         for (vertex, shift_m) in leaf.tile.vertices.iter().zip(shifts_m) {
             let position = vertex.position_planet_m();
             let parents = ((position.distance(eye) / end_m - SHADED_AT) / (1.0 - SHADED_AT)).clamp(0.0, 1.0);

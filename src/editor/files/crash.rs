@@ -41,11 +41,13 @@ impl Doing {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if known.file.as_deref() != path {
             known.file = path.map(Path::to_owned);
+            log::info!("open file: {}", path.map_or("none".into(), Path::to_string_lossy));
         }
     }
 
     /// Notes the graphics adapter.
     pub fn note_adapter(&self, adapter: &str) {
+        log::info!("graphics adapter: {adapter}");
         adapter.clone_into(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner).adapter);
     }
 

@@ -367,7 +367,8 @@ fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
         let (detail, horizon) = (leaf.detail.as_ref(), leaf.horizon.as_ref());
         (leaf.tile.serial, detail.map(|detail| detail.serial), horizon.map(|horizon| horizon.serial))
     };
-    let same = |(a, b): (&Leaf, &Leaf)| serials(a) == serials(b) && a.coarser_edges == b.coarser_edges;
+    let edges = |leaf: &Leaf| (leaf.coarser_edges, leaf.finer_edges);
+    let same = |(a, b): (&Leaf, &Leaf)| serials(a) == serials(b) && edges(a) == edges(b);
     let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
     Arc::ptr_eq(a, b) || (a.complete == b.complete && a.ranges == b.ranges && all())
 }
