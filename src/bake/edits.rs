@@ -8,7 +8,7 @@ use super::BakeError;
 use super::format::{Format, Shape, Source, Steps};
 use super::maps::Map;
 use super::openexr;
-use crate::planet::edits::{EditPoint, GroundEdits, PictureStamp};
+use crate::planet::edits::{EditPoint, GroundEdits, PictureStamp, edit_path};
 use crate::planet::file::write_atomically_with;
 use crate::planet::{GroundEdit, Planet, Tool};
 use crate::sphere::geo::east_north;
@@ -25,7 +25,7 @@ const PIXELS_PER_RADIUS: f64 = 24.0;
 const SIDES: (u32, u32) = (128, 4096);
 /// Greatest reach of edits that fit one picture, as an angle and in kilometres.
 const MOST_RAD: f64 = 1.2;
-const MOST_KM: f64 = 4900.0;
+const MOST_KM: f64 = 4850.0;
 /// The edits end within this share of the ring: a stamp fades at its edge, however hard it is.
 const WITHIN: f64 = 0.97;
 /// Rows that are evaluated at a time.
@@ -43,7 +43,7 @@ pub struct EditBake {
     with: Arc<Planet>,
     /// The same without the edits that are baked.
     without: Arc<Planet>,
-    /// Those edits alone.
+    /// Those edits alone, with the strokes of the mask tool.
     alone: Arc<Terrain>,
     /// The indices of those edits, in order.
     chosen: Vec<usize>,
@@ -96,8 +96,10 @@ impl EditBake {
             return Err(asked("none of these edits is on and changes the ground: there is nothing to bake".to_owned()));
         };
         let edits = chosen.iter().filter_map(|index| planet.edits.get(*index));
-        let narrowest_km = edits.clone().map(|edit| edit.radius_km).fold(f64::MAX, f64::min);
-        let own: GroundEdits = edits.cloned().collect();
+        let narrowest_km = edits.clone().map(narrowest_km).fold(f64::MAX, f64::min);
+        // The mask tool decides where copies lie.
+        let strokes = planet.edits.iter().filter(|edit| edit.enabled && matches!(edit.tool, Tool::Mask(_)));
+        let own: GroundEdits = edits.chain(strokes).cloned().collect();
         let alone = Planet { layers: Vec::new(), structure: None, edits: own, ..Planet::clone(planet) };
         let alone = Terrain::try_new(Arc::new(alone)).map_err(|error| asked(error.to_string()))?;
         let Some((middle, reach_rad)) = alone.edited_disc() else {
@@ -231,7 +233,10 @@ impl EditBake {
         go_on: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<Option<Deviation>, BakeError> {
         let mut stamped = baked.replace(&self.with, file);
-        if let Some((_, why)) = stamped.load_pictures().into_iter().next() {
+        // Other pictures may be missing.
+        let own = edit_path(baked.index());
+        let why = stamped.load_pictures().into_iter().find(|(path, _)| path.starts_with(&own));
+        if let Some((_, why)) = why {
             return Err(BakeError::file(file, why));
         }
         let load = |planet: Arc<Planet>| {
@@ -253,6 +258,12 @@ impl EditBake {
         }
         Ok(Some(Deviation { greatest_m, rms_m: (squares / f64::from(count.max(1))).sqrt() }))
     }
+}
+
+/// The radius of an edit where it is narrowest, of its smallest copy.
+fn narrowest_km(edit: &GroundEdit) -> f64 {
+    let width = edit.points.0.iter().map(|point| point.width).fold(1.0, f64::min);
+    edit.radius_km * width * if edit.tool.is_stamp() && edit.copies > 1 { edit.smallest } else { 1.0 }
 }
 
 impl Place {

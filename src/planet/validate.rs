@@ -3,7 +3,8 @@
 //! Ranges come from the description of each parameter. Rules that involve several parameters are here.
 
 use super::edits::{
-    self, LEAST_WIDTH, MAX_ALL_COPIES, MAX_ALL_POINTS, MAX_EDIT_POINTS, MAX_EDITS, MOST_COURSES_RADII, MOST_WIDTH,
+    self, LEAST_WIDTH, MAX_ALL_COPIES, MAX_ALL_PLACES, MAX_ALL_POINTS, MAX_EDIT_POINTS, MAX_EDITS, MOST_COURSES_RADII,
+    MOST_WIDTH,
 };
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Params as _, Segment};
@@ -111,6 +112,8 @@ fn limits(planet: &Planet, found: &mut Found) {
     limit(ParamPath::default().join("edits"), "edits", planet.edits.len(), MAX_EDITS);
     let all_points = planet.edits.iter().map(|edit| edit.points.0.len()).sum();
     limit(ParamPath::default().join("edits"), "points of all edits", all_points, MAX_ALL_POINTS);
+    let places = planet.edits.place_count();
+    limit(ParamPath::default().join("edits"), "points of all edits with copies and images", places, MAX_ALL_PLACES);
     limit(biomes_path("palette"), "biomes", planet.biomes.palette.len(), MAX_BIOMES);
     let bookmarks = planet.editor.as_ref().map_or(0, |editor| editor.bookmarks.len());
     let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("bookmarks")]);

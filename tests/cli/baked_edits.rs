@@ -3,7 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 use tellus::bake::{BakeError, EditBake};
-use tellus::planet::edits::{Crater, EditPoint, EditPoints, Flatten, GroundEdit, MoisturePaint, Raise, Ridge, Tool};
+use tellus::planet::edits::{
+    Crater, EditPoint, EditPoints, Flatten, GroundEdit, MaskPaint, MoisturePaint, Raise, Ridge, Tool, Volcano,
+};
 use tellus::planet::{Fbm, Layer, Planet, Shape, Water};
 use tellus::sphere::{LatLon, geo};
 use tellus::terrain::Terrain;
@@ -109,4 +111,39 @@ fn what_cannot_be_baked_says_why() {
     assert_eq!(bake.count(), 1);
     assert!(bake.pixel_m() * f64::from(bake.side_px()) > 120_000.0, "{}", bake.pixel_m());
     assert!(bake.run(None, &|_| false).unwrap().is_none());
+}
+
+#[test]
+fn copies_that_a_mask_scatters_are_baked_where_they_lie() {
+    let volcano = Volcano { height_m: 800.0, steepness: 0.0, caldera: 0.0, caldera_m: 0.0 };
+    let scattered = GroundEdit {
+        copies: 30,
+        spread_km: 200.0,
+        smallest: 0.8,
+        mask: "Field".to_owned(),
+        ..edit("cones", Tool::Volcano(volcano), 25.0, &[(20.0, 30.0)])
+    };
+    let stroke = edit("field", Tool::Mask(MaskPaint { mask: "Field".to_owned(), amount: 1.0 }), 90.0, &[(21.0, 33.0)]);
+    for outside_mask in [false, true] {
+        let edits = [GroundEdit { outside_mask, ..scattered.clone() }, stroke.clone()];
+        let planet = Arc::new(Planet { edits: edits.into_iter().collect(), ..Planet::clone(&planet()) });
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("cones.exr");
+        let bake = EditBake::new(&planet, [0]).unwrap();
+        let baked = bake.run(None, &|_| true).unwrap().unwrap();
+        baked.write(&file).unwrap();
+        let mut stamped = baked.replace(&planet, &file);
+        assert!(stamped.load_pictures().is_empty());
+        let bare = Planet { edits: Default::default(), ..Planet::clone(&planet) };
+        let [bare, before, after] =
+            [Arc::new(bare), planet.clone(), Arc::new(stamped)].map(|planet| Terrain::try_new(planet).unwrap());
+        let middle = LatLon::from_degrees(20.0, 30.0).direction();
+        let (mut raised, mut lost) = (0, 0);
+        for dir in geo::spread(200_000).filter(|dir| dir.angle_between(middle) < 0.25) {
+            let [bare_m, was_m, is_m] = [&bare, &before, &after].map(|terrain| terrain.height_m(dir));
+            raised += u32::from(was_m - bare_m > 200.0);
+            lost += u32::from((was_m - is_m).abs() > 60.0);
+        }
+        assert!(raised > 100 && lost == 0, "{raised} {lost}");
+    }
 }

@@ -223,3 +223,9 @@ fn ten_thousand_planets_at_random_ends() {
         "{LONG_PLANETS} planets at random ends, one of {TILES_OF} with tiles; planet {seed} took longest: {secs:.1} s"
     );
 }
+
+#[test]
+fn one() {
+    let planet = extreme(2064);
+    std::fs::write("/tmp/me/p2064.ron", planet.to_text()).unwrap();
+}

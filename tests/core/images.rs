@@ -6,7 +6,7 @@ use glam::DVec3;
 use std::sync::Arc;
 use tellus::planet::Planet;
 use tellus::planet::edits::{
-    EditPoint, Flatten, GroundEdit, Hydraulic, MAX_ALL_POINTS, MAX_EDITS, PictureStamp, Raise, Tool,
+    Crater, EditPoint, Flatten, GroundEdit, Hydraulic, MAX_ALL_POINTS, MAX_EDITS, PictureStamp, Raise, Tool,
 };
 use tellus::planet::file::MAX_FILE_BYTES;
 use tellus::terrain::Terrain;
@@ -120,4 +120,8 @@ fn the_file_of_all_edits_that_a_planet_may_have_is_not_too_long() {
     planet.edits.get_mut(0).unwrap().points.0.push(point);
     let (path, why) = tellus::planet::validate::problems(&planet).remove(0);
     assert!(path.to_string() == "edits" && why.contains("500001 points of all edits are too many"), "{why}");
+    // Few points of many copies.
+    let crater = GroundEdit { copies: 1000, ..edit(Tool::Crater(Crater::default()), 10.0, &[at(1.0, 2.0); 4]) };
+    let why = Terrain::try_new(Arc::new(crate::sculpt::planet(0.0, vec![crater; 251]))).unwrap_err().to_string();
+    assert!(why.contains("1004000 points of all edits with copies and images are too many"), "{why}");
 }

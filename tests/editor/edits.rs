@@ -99,6 +99,17 @@ fn a_line_tapers_by_its_points_and_a_pen_that_presses_lightly_does_little() {
     let tapered = strengths(&harness, 1);
     assert!(tapered[0] == 0.1 && tapered[count - 1] == 0.1 && tapered[count / 2] > 0.8, "{tapered:?}");
     assert!(harness.query_by_label("Width of point 1").is_some());
+
+    // A point that is moved keeps both.
+    let points = |harness: &app::Editor| planet(harness).edits.get(1).unwrap().points.0.clone();
+    let before = points(&harness);
+    let end = below + egui::vec2(90.0, 0.0);
+    app::drag(&mut harness, end, end + egui::vec2(0.0, 25.0));
+    let after = points(&harness);
+    assert_eq!(undo_label(&harness), "Move point of edit");
+    let (was, is) = (before[count - 1], after[count - 1]);
+    assert!((was.latitude_deg - is.latitude_deg).abs() > 0.5, "{was:?} {is:?}");
+    assert_eq!((is.width, is.strength), (was.width, was.strength));
 }
 
 #[test]

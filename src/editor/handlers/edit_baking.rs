@@ -20,13 +20,24 @@ pub fn ask(state: &mut State, ctx: &egui::Context, edits: Vec<usize>) {
         return;
     }
     let folder = state.document.folder();
-    let file_name = state.document.suggested_file_name().replace(".ron", "-edits.exr");
+    let stem = state.document.suggested_file_name().replace(".ron", "-edits");
+    let is_free = |name: &String| folder.as_ref().is_none_or(|folder| !folder.join(name).exists());
+    let mut names = (1..).map(|n| if n == 1 { format!("{stem}.exr") } else { format!("{stem}-{n}.exr") });
+    let file_name = names.find(is_free).unwrap_or_default();
     state.questions.ask(ctx, Asking::BakedEdits(edits), DialogRequest::BakedEdits { folder, file_name });
 }
 
 /// Goes on with a file that was chosen. `agreed` is the file that the user has agreed to replace.
 pub fn chosen(state: &mut State, ctx: &egui::Context, edits: Vec<usize>, file: &Path, agreed: Option<&Path>) {
     let path = with_extension(file, "exr");
+    let is_it = |location: std::path::PathBuf| {
+        location == path || path.canonicalize().is_ok_and(|path| location.canonicalize().is_ok_and(|at| at == path))
+    };
+    if state.document.planet().pictures().filter_map(|(_, file, _)| file.location()).any(is_it) {
+        let why = format!("The planet reads {} already. Choose another name.", path.display());
+        state.report(FAILED, vec![why]);
+        return;
+    }
     if path.exists() && agreed != Some(&path) {
         state.questions.replace = Some(Replace::BakedEdits { edits, path });
     } else {
@@ -46,12 +57,12 @@ pub fn poll(state: &mut State) {
     let Some((result, baking)) = state.edit_baking.as_ref().and_then(|baking| Some((baking.ended()?, baking))) else {
         return;
     };
-    let (to, asked) = (baking.to.clone(), baking.asked.clone());
+    let (to, fits) = (baking.to.clone(), baking.fits(state.document.planet()));
     state.edit_baking = None;
     match result {
-        Ok(Some(done)) if state.document.planet().edits.is_same(&asked) => take_over(state, done, &to),
+        Ok(Some(done)) if fits => take_over(state, done, &to),
         Ok(Some(_)) => {
-            let why = "The edits were changed while they were baked; they stay as they are. Bake them again.";
+            let why = "The ground was changed while its edits were baked; they stay as they are. Bake them again.";
             state.report(FAILED, vec![why.to_owned()]);
         }
         Ok(None) => state.notices.say("Stopped; the edits stay as they are".to_owned()),

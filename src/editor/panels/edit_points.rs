@@ -26,7 +26,9 @@ pub fn show(ui: &mut Ui, edit: &mut GroundEdit) {
     let count = edit.points.0.len();
     let title = if count == 1 { "1 point".to_owned() } else { format!("{count} points") };
     egui::CollapsingHeader::new(title).id_salt("points of edit").show(ui, |ui| {
-        if count > 1 && !edit.tool.is_stamp() {
+        // Rivers are as wide as their water.
+        let tapers = !matches!(edit.tool, Tool::River(_));
+        if count > 1 && !edit.tool.is_stamp() && tapers {
             ui.horizontal(|ui| {
                 for (label, told, share) in TAPERS {
                     if ui.small_button(label).on_hover_text(told).clicked() {
@@ -38,7 +40,10 @@ pub fn show(ui: &mut Ui, edit: &mut GroundEdit) {
         let is_road = matches!(edit.tool, Tool::Road(_));
         ui.horizontal(|ui| {
             let heads = ["Latitude", "Longitude", "Height", "Width", "Strength"];
-            for (column, head) in heads.into_iter().enumerate().filter(|(column, _)| is_road || *column != 2) {
+            for (column, head) in heads.into_iter().enumerate().filter(|(column, _)| match column {
+                2 => is_road,
+                column => *column < 2 || tapers,
+            }) {
                 let size = egui::vec2(width_of(column), ROW);
                 ui.add_sized(size, egui::Label::new(egui::RichText::new(head).weak().small()));
             }
@@ -47,7 +52,7 @@ pub fn show(ui: &mut Ui, edit: &mut GroundEdit) {
         area.auto_shrink([false, true]).show_rows(ui, ROW, count, |ui, rows| {
             for number in rows {
                 if let Some(point) = edit.points.0.get_mut(number) {
-                    row(ui, number, point, is_road);
+                    row(ui, number, point, (is_road, tapers));
                 }
             }
         });
@@ -59,7 +64,7 @@ fn width_of(column: usize) -> f32 {
     if column < 2 { 74.0 } else { 58.0 }
 }
 
-fn row(ui: &mut Ui, number: usize, point: &mut EditPoint, is_road: bool) {
+fn row(ui: &mut Ui, number: usize, point: &mut EditPoint, (is_road, tapers): (bool, bool)) {
     ui.horizontal(|ui| {
         let mut field = |column: usize, name: &str, value: &mut f64, drag: fn(DragValue<'_>) -> DragValue<'_>| {
             let response = ui.add_sized(egui::vec2(width_of(column), ROW), drag(DragValue::new(value)));
@@ -75,6 +80,9 @@ fn row(ui: &mut Ui, number: usize, point: &mut EditPoint, is_road: bool) {
             field(2, "Height", &mut point.height_m, |drag| {
                 drag.speed(1.0).range(-1e5..=1e5).suffix(" m").max_decimals(1)
             });
+        }
+        if !tapers {
+            return;
         }
         field(3, "Width", &mut point.width, |drag| drag.speed(0.01).range(LEAST_WIDTH..=MOST_WIDTH).max_decimals(3));
         field(4, "Strength", &mut point.strength, |drag| drag.speed(0.01).range(0.0..=1.0).max_decimals(3));

@@ -266,7 +266,9 @@ fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     if !draft.shown.filter.is_active() {
         edit_points::show(ui, &mut edit);
     }
-    if let Some(now) = draft.planet.edits.get_mut(index).filter(|now| **now != edit) {
+    // Looked at first: a list that is to be changed is copied.
+    let is_changed = draft.planet.edits.get(index) != Some(&edit);
+    if is_changed && let Some(now) = draft.planet.edits.get_mut(index) {
         // Planets with this edit alone: the difference of thousands takes long.
         let [was, is] =
             [&*now, &edit].map(|edit| Planet { edits: [edit.clone()].into_iter().collect(), ..Planet::default() });

@@ -2,8 +2,10 @@
 
 use super::job::{GoOn, Job};
 use crate::bake::{Deviation, EditBake};
+use crate::planet::edits::edit_path;
+use crate::planet::param::Stage;
 use crate::planet::{GroundEdits, Planet};
-use crate::terrain::MapStore;
+use crate::terrain::{MapStore, Revision};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,8 +16,8 @@ const EVALUATING: f64 = 0.9;
 pub struct EditBaking {
     /// The picture.
     pub to: PathBuf,
-    /// The edits of the planet that it was asked of.
-    pub asked: GroundEdits,
+    /// The planet that it was asked of.
+    pub asked: Arc<Planet>,
     job: Job<Result<Option<Done>, String>>,
 }
 
@@ -43,7 +45,7 @@ impl EditBaking {
         store: Option<Arc<MapStore>>,
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Self {
-        let (path, asked) = (to.to_owned(), planet.edits.clone());
+        let (path, asked) = (to.to_owned(), planet.clone());
         let work = move |go_on: GoOn<'_>| {
             let why = |error: crate::bake::BakeError| error.to_string();
             let bake = EditBake::new(&planet, chosen).map_err(why)?;
@@ -57,13 +59,26 @@ impl EditBaking {
             if let Some(folder) = folder {
                 stamped = stamped.moved_to(&folder);
             }
-            if let Some((_, why)) = stamped.load_pictures().into_iter().next() {
+            let own = edit_path(baked.index());
+            let why = stamped.load_pictures().into_iter().find(|(at, _)| at.starts_with(&own));
+            if let Some((_, why)) = why {
                 return Err(format!("{}: {why}", path.display()));
             }
             let (index, count, pixel_m) = (baked.index(), bake.count(), bake.pixel_m());
             Ok(Some(Done { edits: stamped.edits, index, count, pixel_m, deviation }))
         };
         Self { to: to.to_owned(), asked, job: Job::start(work, wake) }
+    }
+
+    /// Whether a planet has the edits and the ground of the one that it was asked of.
+    pub fn fits(&self, planet: &Arc<Planet>) -> bool {
+        let revision = |planet: &Arc<Planet>| Revision::try_new(planet.clone()).ok();
+        let same_ground = || {
+            let (Some(before), Some(after)) = (revision(&self.asked), revision(planet)) else { return false };
+            let changed = after.changes_since(&before);
+            !changed.contains(Stage::Height) && !changed.contains(Stage::Field)
+        };
+        Arc::ptr_eq(&self.asked, planet) || (self.asked.edits == planet.edits && same_ground())
     }
 
     /// Share that is done, 0 to 1.

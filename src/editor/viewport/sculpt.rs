@@ -10,7 +10,7 @@ use super::pointer::in_view;
 use super::ring;
 use crate::editor::widgets::random_seed;
 use crate::lod::{Camera, View};
-use crate::planet::edits::{EditPoint, GroundEdit, PaintMode};
+use crate::planet::edits::{EditPoint, GroundEdit, MAX_ALL_COPIES, PaintMode};
 use crate::planet::param::Choice;
 use crate::planet::{Planet, Tool};
 use crate::tiles::Surface;
@@ -84,8 +84,8 @@ pub(super) struct Held {
 #[derive(Default)]
 pub(super) struct Hand {
     gesture: Gesture,
-    /// The edit that grows by a point with each click.
-    line: Option<usize>,
+    /// The edit that grows by a point with each click, and its seed: the list may change meanwhile.
+    line: Option<(usize, u32)>,
     /// Where the ring of the brush is.
     ring: Option<DVec3>,
     /// The edit that was made or changed last, once.
@@ -180,9 +180,9 @@ impl Hand {
     /// Enter and Escape end a line; so do another tool and an undo.
     fn follow_line(&mut self, ui: &egui::Ui, link: &SculptLink, planet: &Planet) {
         let ends = ui.input(|i| i.key_pressed(egui::Key::Enter) || i.key_pressed(egui::Key::Escape));
-        let fits = |index: &usize| {
+        let fits = |(index, seed): &(usize, u32)| {
             let tools = (planet.edits.get(*index), link.brush.as_ref());
-            matches!(tools, (Some(edit), Some(brush)) if edit.tool.index() == brush.tool.index())
+            matches!(tools, (Some(edit), Some(brush)) if edit.tool.index() == brush.tool.index() && edit.seed == *seed)
         };
         self.line = self.line.filter(fits).filter(|_| !ends);
     }
@@ -230,6 +230,7 @@ impl Hand {
             return None;
         }
         let mut edit = GroundEdit { seed: random_seed() as u32, ..brush.clone() };
+        edit.copies = edit.copies.min((MAX_ALL_COPIES / edit.image_count()) as u32);
         edit.name = format!("{} {}", label(brush).unwrap_or("Edit"), index + 1);
         edit.points.0 = vec![point];
         if inverse {
@@ -277,8 +278,9 @@ impl Hand {
                 edit.points.0 = handles::dragged(before, *point, to, *others);
                 match others {
                     Others::Stay => {
-                        let moved = point_at(on, edit, to);
-                        *edit.points.0.get_mut(*point)? = moved;
+                        // Its width and strength stay.
+                        let height_m = point_at(on, edit, to).height_m;
+                        edit.points.0.get_mut(*point)?.height_m = height_m;
                         Some(MOVE_STEP)
                     }
                     Others::Move => Some(SHIFT_STEP),
@@ -298,7 +300,7 @@ impl Hand {
         planet: &mut Planet,
     ) -> Option<&'static str> {
         let point = point_at(scene.surface, brush, scene.ground(scene.surface, pos)?);
-        if let Some(index) = self.line {
+        if let Some((index, _)) = self.line {
             let first = planet.edits.get(index)?.points.0.first().copied()?;
             // A river does not run in a ring.
             let may_close = !matches!(brush.tool, Tool::River(_));
@@ -306,6 +308,8 @@ impl Hand {
             let edit = planet.edits.get_mut(index)?;
             if edit.points.0.len() < edit.most_points() {
                 edit.points.0.push(if closes { first } else { point });
+            } else if closes && let Some(last) = edit.points.0.last_mut() {
+                *last = first;
             }
             self.line = self.line.filter(|_| !closes);
             self.touched = Some(index);
@@ -313,7 +317,7 @@ impl Hand {
         }
         let index = self.place(brush, inverse, point, planet)?;
         if brush.tool.is_line() {
-            self.line = Some(index);
+            self.line = planet.edits.get(index).map(|edit| (index, edit.seed));
         }
         label(brush)
     }

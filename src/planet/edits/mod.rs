@@ -28,6 +28,8 @@ use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, count, linea
 pub const MAX_EDITS: usize = 20_000;
 /// Most points of all edits of a planet: its file can be read again, see `MAX_FILE_BYTES`.
 pub const MAX_ALL_POINTS: usize = 500_000;
+/// Most points of all edits with copies of stamps and images by symmetry: each takes memory of its own.
+pub const MAX_ALL_PLACES: usize = 1_000_000;
 /// Height limits of edits go so far, either way.
 pub const MOST_LIMIT_M: f64 = 20_000.0;
 /// Least and greatest width of an edit at a point, as shares of its radius.

@@ -198,6 +198,8 @@ impl CompiledEdit {
         common.add_f64(self.core);
         common.add_f64(self.raggedness);
         common.add(u64::from(edit.seed));
+        // All arcs are ordered in another way.
+        common.add(u64::from(self.tapers));
         common.add(self.blend as u64);
         self.limits.hash(&mut common);
         if let Some(mask) = &self.mask {
@@ -234,8 +236,8 @@ impl CompiledEdit {
             arcs.iter().for_each(|arc| hash.add_f64(arc.scale));
             arcs.iter().flat_map(|arc| [arc.widths, arc.strengths]).flatten().for_each(|number| hash.add_f64(number));
             if let Some(stamp) = &self.stamp {
-                let up = stamp.axes(first)[1];
-                up.to_array().into_iter().for_each(|part| hash.add_f64(part));
+                let axes = stamp.axes(first).iter().flat_map(|axis| axis.to_array());
+                axes.for_each(|part| hash.add_f64(part));
             }
             let (first, count) = (first as u32, arcs.len() as u32);
             Piece { first, count, middle, chord: chord_of(angle_rad), hash: hash.0 }

@@ -31,7 +31,7 @@ pub(super) enum Read {
 }
 
 impl Reader {
-    /// Chord within which the ground decides about a point.
+    /// Angle within which the ground decides about a point.
     pub(super) fn reach_rad(&self) -> f64 {
         match self {
             Reader::Smooth(lattice) => lattice.reach_rad(),
