@@ -183,6 +183,26 @@ fn each_tool_has_the_height_of_its_formula_in_the_middle_at_the_rim_and_at_the_e
 }
 
 #[test]
+fn a_coast_has_one_side_around_a_sharp_tip_and_where_it_is_closed() {
+    let coast = Tool::Coast(Coast { land_m: 80.0, depth_m: 120.0, flip: false });
+    // A narrow peninsula: land lies between the two ways.
+    let tip = at(0.3, 3.0);
+    let open = [at(0.0, 0.0), tip, at(0.6, 0.0)];
+    // An isle with a corner at its first point, which is its last.
+    let closed = [tip, at(0.6, 0.0), at(0.0, 0.0), tip];
+    for points in [&open[..], &closed[..]] {
+        let edit = GroundEdit { softness: 0.2, ..edit(coast.clone(), 10.0, points) };
+        let terrain = terrain(&planet(0.0, vec![edit]));
+        // The ends of an open line fade, its middle does not.
+        for heading_deg in (0..=180).step_by(5) {
+            let height_m = terrain.height_m(beside(&tip, f64::from(heading_deg), 5.0));
+            assert!(height_m < -50.0, "{heading_deg}: {height_m}");
+        }
+        assert!(terrain.height_m(beside(&tip, 270.0, 8.0)) > -50.0);
+    }
+}
+
+#[test]
 fn land_alone_and_sea_floor_alone_change_no_other_ground_and_make_no_cliff() {
     for limit in [Limit::AboveSea, Limit::BelowSea] {
         for amount_m in [900.0, -900.0] {

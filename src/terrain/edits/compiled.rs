@@ -35,6 +35,8 @@ pub(super) struct CompiledEdit {
     pub(super) pieces: Vec<Piece>,
     is_stamp: bool,
     radius_rad: f64,
+    /// How many images it has, itself among them: each has as many arcs.
+    images: usize,
     /// Chord of the distance to which it reaches.
     reach_chord: f64,
     /// Whether the edit is wider at some of its points than at others.
@@ -169,6 +171,7 @@ impl CompiledEdit {
             tapers: arcs.iter().flat_map(|arc| arc.widths).any(|width| width != 1.0),
             pieces: Vec::new(),
             is_stamp: edit.tool.is_stamp(),
+            images: edit.image_count(),
             radius_rad,
             reach_chord: chord_of(radius_rad * tool.reach() * widest),
             core: (1.0 - edit.softness).min(0.99),
@@ -236,14 +239,14 @@ impl CompiledEdit {
             arcs.iter().for_each(|arc| hash.add_f64(arc.scale));
             arcs.iter().flat_map(|arc| [arc.widths, arc.strengths]).flatten().for_each(|number| hash.add_f64(number));
             if let Some(stamp) = &self.stamp {
-                let axes = stamp.axes(first).iter().flat_map(|axis| axis.to_array());
+                let axes = stamp.axes(first).iter().flat_map(DVec3::to_array);
                 axes.for_each(|part| hash.add_f64(part));
             }
             let (first, count) = (first as u32, arcs.len() as u32);
             Piece { first, count, middle, chord: chord_of(angle_rad), hash: hash.0 }
         };
         // Images lie far apart.
-        let image = (self.arcs.len() / edit.image_count()).max(1);
+        let image = (self.arcs.len() / self.images).max(1);
         let firsts = (0..self.arcs.len()).step_by(image).flat_map(|begin| {
             (begin..begin + image).step_by(size).map(move |first| (first, (first + size).min(begin + image)))
         });
@@ -279,6 +282,26 @@ impl CompiledEdit {
     /// Squared chord of the distance to which it reaches.
     pub(super) fn reach_chord2(&self) -> f64 {
         self.reach_chord * self.reach_chord
+    }
+
+    /// 1 if a direction is on the left side of the line, else -1. At a joint both arcs count: beyond a sharp bend the
+    /// plane of either alone cuts through the other side.
+    fn side(&self, nearest: &Nearest, dir: DVec3) -> f64 {
+        let number = nearest.arc as usize;
+        let arc = &self.arcs[number];
+        if nearest.inside {
+            return arc.side(dir);
+        }
+        let image = self.arcs.len() / self.images;
+        let (first, last) = (number / image * image, number / image * image + image - 1);
+        let other = match arc.is_nearer_to_begin(dir) {
+            // The line may be closed.
+            true if number == first => &self.arcs[last],
+            true => &self.arcs[number - 1],
+            false if number == last => &self.arcs[first],
+            false => &self.arcs[number + 1],
+        };
+        arc.side_at_joint(other, dir)
     }
 
     /// The heights of a road over these of its arcs.
@@ -401,7 +424,7 @@ impl CompiledEdit {
         } else {
             smooth
         };
-        let side = if has_sides { arc.side(dir) } else { 1.0 };
+        let side = if has_sides { self.side(nearest, dir) } else { 1.0 };
         let at = At {
             ground_m,
             t,

@@ -288,11 +288,14 @@ impl Edits {
                 let Some(effect) = edit.effect(dir, (nearest, arcs), heights.height_m[i], read, share) else {
                     continue;
                 };
-                heights.height_m[i] = (heights.height_m[i] + effect.change_m).clamp(limits_m.0, limits_m.1);
+                let changed_m = heights.height_m[i] + effect.change_m;
+                heights.height_m[i] = changed_m.clamp(limits_m.0, limits_m.1);
+                let is_limit = heights.height_m[i] != changed_m;
                 let masks = shares.gradients(own).iter().copied().chain(std::iter::repeat(DVec3::ZERO));
                 for ((gradient, &spacing_rad), mask) in heights.gradients.iter_mut().zip(spacings_rad).zip(masks) {
                     let before = components(gradient, i) * effect.by_ground;
-                    set_components(gradient, i, before + effect.gradient(spacing_rad) + mask * effect.by_share);
+                    let after = before + effect.gradient(spacing_rad) + mask * effect.by_share;
+                    set_components(gradient, i, if is_limit { DVec3::ZERO } else { after });
                 }
             }
         });
@@ -439,8 +442,11 @@ fn components(gradient: &Components, i: usize) -> DVec3 {
     DVec3::from_array(gradient.each_ref().map(|component| f64::from(component[i])))
 }
 
+/// Thousands of edits at a place can multiply a slope beyond all numbers.
+const STEEPEST: f64 = 1e30;
+
 fn set_components(gradient: &mut Components, i: usize, value: DVec3) {
     for (component, value) in gradient.iter_mut().zip(value.to_array()) {
-        component[i] = value as f32;
+        component[i] = value.clamp(-STEEPEST, STEEPEST) as f32;
     }
 }

@@ -143,7 +143,7 @@ impl Arc {
             let along = ((foot - self.a).length() / (self.b - self.a).length()).min(1.0);
             return Foot { dir: foot, along, inside };
         }
-        let is_a = (dir - self.a).length_squared() <= dir.distance_squared(self.b);
+        let is_a = self.is_nearer_to_begin(dir);
         let (foot, along) = if is_a { (self.a, 0.0) } else { (self.b, 1.0) };
         Foot { dir: foot, along, inside }
     }
@@ -163,6 +163,20 @@ impl Arc {
     /// 1 if a direction is on the left side of the way from its beginning to its end, else -1.
     pub(super) fn side(&self, dir: DVec3) -> f64 {
         if (dir - self.a).dot(self.normal) >= 0.0 { 1.0 } else { -1.0 }
+    }
+
+    /// Whether a direction that is not beside it is nearer to its beginning than to its end.
+    pub(super) fn is_nearer_to_begin(&self, dir: DVec3) -> bool {
+        (dir - self.a).length_squared() <= dir.distance_squared(self.b)
+    }
+
+    /// The side at the end that is nearer to a direction, of a line that goes on there with another arc: the mean of
+    /// both planes decides (the pseudonormal of Bærentzen and Aanæs 2005).
+    pub(super) fn side_at_joint(&self, other: &Self, dir: DVec3) -> f64 {
+        let joint = if self.is_nearer_to_begin(dir) { self.a } else { self.b };
+        let goes_on = other.a == joint || other.b == joint;
+        let normal = if goes_on { self.normal + other.normal } else { self.normal };
+        if (dir - joint).dot(normal) >= 0.0 { 1.0 } else { -1.0 }
     }
 
     /// The tangent at a direction that points to its left side.
