@@ -15,7 +15,7 @@ use super::lane::CHUNK;
 use super::points::Points;
 use super::relief::{self, ReliefFields, Shares};
 use glam::DVec3;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 /// Where the noise of one batch of points comes from.
@@ -57,6 +57,16 @@ pub(crate) struct JoinScratch {
     edits: edits::Near,
 }
 
+/// Edits that ask for the ground before them on one stack, and the size of each further stack.
+const MOST_DEEP: usize = 16;
+const STACK_BYTES: usize = 2 << 20;
+
+/// A scratch on the heap, made in a frame of its own.
+#[inline(never)]
+fn new_scratch() -> Box<BatchScratch> {
+    Box::default()
+}
+
 impl Terrain {
     /// Heights at points, with one gradient for each spacing. `each(layer, heights_m)` is told the heights after each
     /// enabled layer.
@@ -96,13 +106,34 @@ impl Terrain {
         edits.apply(dirs, spacings_rad, heights, self.stack.limits_m(), near, (&ground, before));
     }
 
-    /// Heights at points as the layers and the edits before the one in a slot make them.
+    /// Heights at points as the layers and the edits before the one in a slot make them. Edits that read the ground may
+    /// lie over one another by the hundred, and each asks for the ground before it: every few of them get a stack of
+    /// their own.
     fn ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3]) -> Vec<f64> {
-        // The scratch of the thread is in use.
-        let mut scratch = BatchScratch::default();
+        thread_local! {
+            static DEPTH: Cell<usize> = const { Cell::new(0) };
+        }
+        let depth = DEPTH.replace(DEPTH.get() + 1);
+        let find = || self.find_ground_before(edits, slot, dirs);
+        let heights_m = if depth < MOST_DEEP {
+            find()
+        } else {
+            let stack = std::thread::Builder::new().name("ground".to_owned()).stack_size(STACK_BYTES);
+            std::thread::scope(|scope| match stack.spawn_scoped(scope, find) {
+                Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+                Err(_) => find(),
+            })
+        };
+        DEPTH.set(depth);
+        heights_m
+    }
+
+    fn find_ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3]) -> Vec<f64> {
+        // The scratch of the thread is in use. It is too large for a stack that is as deep as edits lie over one another.
+        let mut scratch = new_scratch();
         let mut heights_m = Vec::with_capacity(dirs.len());
         for dirs in dirs.chunks(CHUNK) {
-            let BatchScratch { points, noise, join, heights } = &mut scratch;
+            let BatchScratch { points, noise, join, heights } = &mut *scratch;
             points.refill(dirs.iter().copied(), 0.0);
             noise.restart(self);
             let points = &*points;

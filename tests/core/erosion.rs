@@ -2,6 +2,7 @@
 
 use crate::sculpt::{at, beside, edit, planet, terrain};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use tellus::planet::Planet;
 use tellus::planet::edits::{GroundEdit, Hydraulic, Smooth, Thermal, Tool, Volcano};
 use tellus::terrain::Terrain;
@@ -94,4 +95,24 @@ fn what_stands_out_crumbles_by_the_formula() {
     }
     assert!(most_over_m > 1.5 * most_m, "{most_over_m} {most_m}");
     assert!(kept > 1900, "{kept}");
+}
+
+/// Each reads the ground that all before it left: deep, but not on the stack.
+#[test]
+fn many_strokes_that_read_the_ground_lie_over_one_another() {
+    let middle = at(12.0, -70.0);
+    let stroke = |i: usize| {
+        let tool = match i % 2 {
+            0 => Tool::Smooth(Smooth { size: 0.5, strength: 0.02 }),
+            _ => Tool::Thermal(Thermal { size: 0.5, strength: 0.02, ..Thermal::default() }),
+        };
+        let points = [at(12.0, -70.0 + 0.001 * i as f64), at(12.1, -69.9), at(12.0, -69.8)];
+        edit(tool, 4.0, &points)
+    };
+    let planet = Arc::new(planet(900.0, (0..40).map(stroke).collect()));
+    let dir = beside(&middle, 40.0, 1.0);
+    // As much as a worker has.
+    let ask = move || Terrain::try_new(planet).unwrap().height_m(dir);
+    let height_m = std::thread::Builder::new().stack_size(2 << 20).spawn(ask).unwrap().join().unwrap();
+    assert!(height_m.is_finite());
 }
