@@ -69,8 +69,10 @@ fn aside_of(pixel: vec2f) -> vec2f {
 
 // Density below which there is no cloud.
 const LEAST_DENSITY: f32 = 0.004;
-// Width of what a step resolves, in steps.
+// Width of what a step resolves, in steps. Low quality has few and long ones: with as much blur they would dissolve
+// puffs that are many pixels wide. The mean over the jitter of pixels shows them; less blur is grain.
 const BLUR: f32 = 0.45;
+const LOW_BLUR: f32 = 0.25;
 const RAIN_BLUR: f32 = 0.06;
 // How much the tone of thin cloud over thick cloud follows the thin one, 0 to 1: decks have a texture of their own.
 const DECK_TONE: f32 = 0.8;
@@ -149,12 +151,14 @@ fn height_in_layer(way: Way, at_km: f32) -> f32 {
     return saturate1((altitude_km - bottom) / (body.cloud_layers[way.layer].top_km - bottom));
 }
 
+fn blur() -> f32 { return select(BLUR, LOW_BLUR, frame.pattern_quality == 0.0); }
+
 // The cloud at a distance along a ray, as steps of a length resolve it.
 fn cloud_on(way: Way, at_km: f32, sky: Sky, step_km: f32) -> Cloud {
     // Shafts of rain are narrower than steps: the mean over the jitter of pixels shows them. With less blur, that mean
     // is grain.
-    let blur = select(BLUR, RAIN_BLUR, way.layer == RAIN_LAYER);
-    let footprint = max(at_km * frame.pixel_rad, step_km * blur);
+    let share = select(blur(), RAIN_BLUR, way.layer == RAIN_LAYER);
+    let footprint = max(at_km * frame.pixel_rad, step_km * share);
     let height = height_in_layer(way, at_km);
     let extent = abs(height_in_layer(way, at_km + step_km) - height);
     return cloud_at(way.layer, way.dir * at_km, sky, height, extent, footprint);
@@ -264,7 +268,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             if density <= LEAST_DENSITY { continue; }
             let rel = dir * here;
             let height = height_in_layer(way, here);
-            let footprint = max(here * frame.pixel_rad, length_km * BLUR);
+            let footprint = max(here * frame.pixel_rad, length_km * blur());
             // A second density sample towards the sun shapes light and shade. Its distance is at least about a pixel.
             let reach = max(thickness * 0.4, here * frame.pixel_rad * 1.2);
             let ahead_height = saturate1(height + reach * sun_mu / thickness);

@@ -56,8 +56,8 @@ fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f 
 }
 
 // Broad independent octaves that bend the edges of ice.
-fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
-    var sum = vec2f(0.0);
+fn edge_jitter(rel_m: vec3f, footprint_m: f32) -> f32 {
+    var sum = 0.0;
     var position = rel_m;
     for (var i = 0u; i < 5u; i++) {
         let octave = body.variation[i];
@@ -66,7 +66,7 @@ fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
         if share <= 0.0 { break; }
         if i >= 2u {
             let at = (octave.offset + position / octave.period).yzx;
-            sum += (textureSampleLevel(noise_tile, repeated, at, lod).rg - 0.5) * share;
+            sum += (textureSampleLevel(noise_tile, repeated, at, lod).r - 0.5) * share;
         }
         position = OCTAVE_TURN * position;
     }

@@ -75,6 +75,11 @@ fn shown_axis(planes: vec3f, nth: u32) -> u32 {
     return select(select(2u, 1u, nth < xy), 0u, nth < x);
 }
 
+// Width of a tap at low quality, by the distance between taps. There each pixel stands for four of the others, so that
+// taps that close the gaps between them would smear the ground before the feet into stripes. What the gaps alias is a
+// part of one such pixel.
+const LOW_TAP_WIDTH: f32 = 0.6;
+
 // Number of taps along the longer side of a pixel's footprint: several taps stay sharper than one as wide as the
 // footprint is long. One is enough where pixels are hardly longer than wide, and where the whole pixel lies within a
 // texel.
@@ -122,7 +127,10 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let planes = plane_shares(seen.n);
     // The finer scale is for the ground at one's feet; it also hides the repetition of the coarser scale.
     let scales = select(1u, 2u, frame.pattern_quality > 0.0 && lod < 7.0);
-    let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, 1u << u32(frame.pattern_quality));
+    let is_low = frame.pattern_quality == 0.0;
+    let most_steps = select(1u << u32(frame.pattern_quality), 2u, is_low);
+    let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, most_steps);
+    let tap_width = select(1.0, LOW_TAP_WIDTH, is_low && steps > 1u) / f32(steps);
     let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);
     let copies = axes * scales * steps;
     let taps = copies * select(1u, 2u, flows);
@@ -143,7 +151,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
         let y = projected(seen.rel_y, axis);
         let is_x_longer = dot(x, x) > dot(y, y);
         let long_m = select(y, x, is_x_longer);
-        let wide_m = max(length(select(x, y, is_x_longer)), length(long_m) / f32(steps));
+        let wide_m = max(length(select(x, y, is_x_longer)), length(long_m) * tap_width);
         var p = projected(body.eye_wrap_m + seen.rel_m - carried_m, axis);
         p += long_m * ((f32(step) + 0.5) / f32(steps) - 0.5);
         var period_m = size.x;

@@ -75,28 +75,46 @@ fn gusty(variance: f32, noise: f32) -> f32 {
     return min(variance, CALM_SLOPE_VARIANCE) + raised * exp(GUSTS * noise);
 }
 
-// Octaves of the macro variation whose patches roughen and smooth the ripples: 5 km to 80 m.
+// Octaves of the macro variation whose patches roughen and smooth the ripples: 5 km to 80 m. Those of gusts and slicks
+// seen from afar: 41 km to 640 m.
 const RIPPLED: vec2u = vec2u(3u, 5u);
+const GUSTY: vec2u = vec2u(2u, 4u);
 // Exponent of that noise. By eye.
 const RIPPLES: f32 = 0.5;
+// The wind draws such patches out: cat's paws, and slicks in the lines of Langmuir's cells, are several times as long
+// as wide. So the noise is a mean over points along the wind (line integral convolution: Cabral and Leedom 1993). They
+// are a tenth of a period apart, and read a level of detail that has no blobs narrower than that.
+const STREAK_POINTS: i32 = 5;
+const STREAK_STEP: f32 = 0.16;
+const STREAK_LOD: f32 = 1.2;
+// Standard deviation of the noise over that of the mean.
+const STREAK_GAIN: f32 = 2.0;
 
-// Factor on the variance of the slopes of waves too small to be drawn: gusts raise ripples in patches. Between the
-// waves near the eye and the streaks from afar that is what the sea shows.
-fn rippled(rel_m: vec3f, footprint_m: f32) -> f32 {
-    var sum = 0.0;
+// Noise of a range of octaves of the macro variation, drawn out along the wind. Red of the noise tile (x), green (y).
+fn streaks(rel_m: vec3f, up: vec3f, footprint_m: f32, octaves: vec2u) -> vec2f {
+    var along = body.sea_wind - up * dot(body.sea_wind, up);
+    // On the other side of the planet it would have no direction.
+    along /= max(length(along), 0.1);
     var position = rel_m;
-    for (var i = 0u; i <= RIPPLED.y; i++) {
+    var sum = vec2f(0.0);
+    for (var i = 0u; i <= octaves.y; i++) {
         let octave = body.variation[i];
         let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
-        if i >= RIPPLED.x {
-            let at = (octave.offset + position / octave.period).zxy;
-            sum += (textureSampleLevel(noise_tile, repeated, at, lod).r - 0.5) * share;
+        if i >= octaves.x {
+            let at = octave.offset + position / octave.period;
+            var here = vec2f(0.0);
+            for (var k = 0; k < STREAK_POINTS; k++) {
+                let aside = (f32(k) - 0.5 * f32(STREAK_POINTS - 1)) * STREAK_STEP;
+                here += textureSampleLevel(noise_tile, repeated, (at + along * aside).zxy, max(lod, STREAK_LOD)).rg - 0.5;
+            }
+            sum += here * (share * STREAK_GAIN / f32(STREAK_POINTS));
         }
         position = OCTAVE_TURN * position;
+        along = OCTAVE_TURN * along;
     }
-    return exp(RIPPLES * sum);
+    return sum;
 }
 
 // Share of the sea that breaking waves whiten (Monahan and Muircheartaigh 1980), from the variance of the slopes (Cox
@@ -237,12 +255,13 @@ fn water_radiance(water: Water) -> vec3f {
     let h = water.altitude_km;
     let rel_m = rel_km * 1000.0;
     let variation = macro_variation(rel_m, footprint_m);
-    let jitter = border_jitter(rel_m, footprint_m);
-    let ice = ice_at(water, rel_m, up, footprint_m, variation, jitter.x);
+    let ice = ice_at(water, rel_m, up, footprint_m, variation, edge_jitter(rel_m, footprint_m));
     // Only the first sun determines the path of light down through the water.
     let first_mu = max(dot(up, body.suns[0].dir), 0.0);
     // From near, single waves show the wind.
-    let gust = jitter.y * smoothstep(5.0, 50.0, distance_km);
+    let far = smoothstep(5.0, 50.0, distance_km);
+    var gust = 0.0;
+    if far > 0.0 { gust = streaks(rel_m, up, footprint_m, GUSTY).y * far; }
     let slope_variance = gusty(water.slope_variance, gust);
     var surface = Surface(up, 0.0, 0.0, 0.0);
     var fresnel = 0.0;
@@ -250,8 +269,13 @@ fn water_radiance(water: Water) -> vec3f {
     var mirrored = up;
     if ice.share < 1.0 {
         surface = water_surface(water, rel_m - up * water.lift_m, up, slope_variance, variation);
-        let ripples = mix(rippled(rel_m, footprint_m), 1.0, smoothstep(5.0, 50.0, distance_km));
-        surface.rest = max(surface.rest * mix(1.0, ripples, smoothstep(20.0, 150.0, distance_km * 1000.0)), 0.0004);
+        // Gusts raise ripples in patches: between the waves near the eye and the streaks from afar that is what the sea
+        // shows.
+        let patched = (1.0 - far) * smoothstep(20.0, 150.0, distance_km * 1000.0);
+        if patched > 0.0 {
+            let ripples = exp(RIPPLES * streaks(rel_m, up, footprint_m, RIPPLED).x);
+            surface.rest = max(surface.rest * mix(1.0, ripples, patched), 0.0004);
+        }
         fresnel = fresnel_sea(dot(surface.normal, -dir), surface.rest);
         mirrored = reflect(dir, surface.normal);
         // Rough water reflects a patch of sky above the mirror direction.

@@ -3,10 +3,10 @@
 use crate::support::{debug, frame_of, gpu, preset, surface_of, terrain};
 use glam::{DVec3, dvec3};
 use std::collections::BTreeMap;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Clouds, Planet};
+use tellus::planet::{Clouds, Planet, Water};
 use tellus::render::DebugView;
 use tellus::sphere::{LatLon, spread};
 
@@ -120,6 +120,59 @@ const KNOWN: [(&str, &str, f64, f64); 3] = [
 ];
 /// Share by which they may be missed.
 const OFF: f64 = 0.15;
+
+/// Zeros of the Legendre polynomial of degree 8, and their weights: nodes of Gauss's quadrature from -1 to 1.
+const NODES: [(f64, f64); 4] = [
+    (0.183_434_642_495_65, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887),
+    (0.796_666_477_413_627, 0.222_381_034_453_374),
+    (0.960_289_856_497_536, 0.101_228_536_290_376),
+];
+
+/// What a bare sea reflects of even light from the whole sky: the spherical albedo of a globe of that sea, which is the
+/// same by reciprocity. The sum of its radiance in all directions, the glint of the star included.
+fn even_albedo_of_sea(file: &str) -> f64 {
+    let shipped = preset(file);
+    let water = shipped.water.clone().map(|water| Water { level_m: 4000.0, ..water });
+    let mut planet = Planet { water, star: shipped.star.clone(), ..Planet::default() };
+    (planet.layers, planet.structure, planet.atmosphere, planet.clouds) = (Vec::new(), None, None, None);
+    (planet.climate.equator_c, planet.climate.pole_c) = (25.0, 25.0);
+    let planet = Arc::new(planet);
+    let sunlight = planet.star.brightness * luminance(planet.star.color.map(|channel| channel as f32));
+    let radius_m = planet.radius_m() + planet.sea_level_m().unwrap();
+    let distance_m = 30.0 * radius_m;
+    let fov_rad = 2.1 * (radius_m / distance_m).asin();
+    let camera = Camera::over(LatLon::from_direction(DVec3::X), distance_m, 0.0, -FRAC_PI_2, fov_rad);
+    let view = View { camera, size_px: [SIDE_PX as u32; 2], quality: Quality::High };
+    let surface = surface_of(&planet, &view);
+    let mut gpu = gpu();
+    let mut sum = 0.0;
+    for (cosine, weight) in NODES.into_iter().flat_map(|(x, weight)| [(x, weight), (-x, weight)]) {
+        let sun = dvec3(cosine, (1.0 - cosine * cosine).sqrt(), 0.0);
+        let ([width, height], light) = {
+            gpu.draw_only(&frame_of(&surface, &planet, view, sun), 1);
+            gpu.renderer.radiance().unwrap()
+        };
+        // Solid angle of a pixel in the middle of the picture; the picture is narrow.
+        let pixel_sr = (2.0 * (0.5 * fov_rad).tan()).powi(2) / f64::from(width * height);
+        let radiance_sr = light.into_iter().map(luminance).sum::<f64>() * pixel_sr;
+        // White ground under the star has radiance 1, so the light that meets the disc is pi times its area. A globe
+        // has equal pictures all around the axis to the star.
+        sum += weight * 2.0 * radiance_sr * (distance_m / radius_m).powi(2) / (PI * sunlight);
+    }
+    sum
+}
+
+/// Payne, Albedo of the sea surface, 1972: 0.061 under an overcast sky, which is as bright in all directions. The share
+/// of sunlight depends on its height (0.03 overhead, 0.06 at 30 degrees over the horizon), and most of it is the glint:
+/// one look from aside shows less than half of it.
+#[test]
+fn the_sea_reflects_what_seas_do() {
+    for file in ["aurel.ron", "maren.ron", "hoarfrost.ron", "alder.ron", "skerry.ron"] {
+        let found = even_albedo_of_sea(file);
+        assert!((found / 0.061 - 1.0).abs() < OFF, "{file}: {found}");
+    }
+}
 
 /// The direction around which most of the ground is of a name.
 fn middle_of(planet: &Arc<Planet>, name: &str) -> DVec3 {

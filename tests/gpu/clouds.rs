@@ -1,8 +1,9 @@
 //! Clouds over time, drafts of their maps, and their cover against the field that queries answer from.
 
-use crate::support::{Gpu, SIZE_PX, camera, earth, frame, gpu, inside_disc, lights, surface};
+use crate::support::{Gpu, SIZE_PX, camera, earth, frame, gpu, inside_disc, lights, preset, surface};
 use std::sync::Arc;
 use tellus::clouds::CloudField;
+use tellus::lod::Quality;
 use tellus::planet::edits::CloudPaint;
 use tellus::planet::{Clouds, EditPoint, GroundEdit, Planet, Tool};
 use tellus::sphere::spread;
@@ -121,6 +122,38 @@ fn pictures_show_the_cover_that_queries_report() {
         seen.push(mean);
     }
     assert!(seen[1] > seen[0] + 10.0 && seen[2] > seen[1] + 10.0, "{seen:?}");
+}
+
+/// Low quality has the same heaps of cloud as medium quality, from below them and from their own height.
+#[test]
+fn low_quality_loses_no_puffs() {
+    let planet = Arc::new(preset("maren.ron"));
+    let mut gpu = gpu();
+    let mut found = Vec::new();
+    for (altitude_m, pitch) in [(300.0, 20.0), (3000.0, 8.0)] {
+        let camera = camera(&planet, 5.0, -120.0, altitude_m, 90.0, pitch);
+        let surface = surface(&planet, &camera);
+        // Red light: the sky has little of it. One mean for each pixel of low quality.
+        let mut reds = |quality: Quality| {
+            let mut scene = frame(&surface, &planet, camera, (5.0, -150.0));
+            scene.quality = quality;
+            gpu.draw_only(&scene, 1);
+            let ([width, _], light) = gpu.renderer.radiance().unwrap();
+            let block = width / (SIZE_PX[0] / 2);
+            let place = |i: u32| (i % (SIZE_PX[0] / 2) * block, i / (SIZE_PX[0] / 2) * block);
+            let mean = |(x, y): (u32, u32)| {
+                let inside = (0..block * block).map(|i| (y + i / block) * width + x + i % block);
+                inside.map(|i| f64::from(light[i as usize][0])).sum::<f64>() / f64::from(block * block)
+            };
+            (0..SIZE_PX[0] * SIZE_PX[1] / 4).map(place).map(mean).collect::<Vec<_>>()
+        };
+        let (low, medium) = (reds(Quality::Low), reds(Quality::Medium));
+        let mean = medium.iter().sum::<f64>() / medium.len() as f64;
+        let spread = medium.iter().map(|red| (red - mean).powi(2)).sum::<f64>();
+        let off = low.iter().zip(&medium).map(|(low, medium)| (low - medium).powi(2)).sum::<f64>();
+        found.push((off / spread).sqrt());
+    }
+    assert!(found.iter().all(|unlike| *unlike < 0.45), "shares of what the skies vary by: {found:?}");
 }
 
 /// No cover draws what no clouds draw, to the bit.

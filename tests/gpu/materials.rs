@@ -119,6 +119,36 @@ fn patterns_show_from_near_and_fade_away() {
     assert!(near > 12.0 && far < 5.5, "{near} {far}");
 }
 
+/// How much pixels beside each other differ on gravel seen at a slant from 2 m, by their mean, at the size that low
+/// quality draws.
+fn graininess(gpu: &mut Gpu, quality: Quality) -> f64 {
+    let planet = Arc::new(ball(Biome { detail: Detail::Gravel, ..grey(0.25) }));
+    let camera = camera(&planet, PLACE.0, PLACE.1, 2.0, 0.0, -10.0);
+    let surface = surface(&planet, &camera);
+    let mut frame = frame(&surface, &planet, camera, (PLACE.0 + 20.0, PLACE.1 + 30.0));
+    frame.quality = quality;
+    gpu.draw_only(&frame, 1);
+    let ([width, _], light) = gpu.renderer.radiance().unwrap();
+    let block = width / (SIZE_PX[0] / 2);
+    let at = |x: u32, y: u32| {
+        let inside = (0..block * block).map(|i| (x * block + i % block, y * block + i / block));
+        inside.map(|(x, y)| f64::from(light[(y * width + x) as usize][1])).sum::<f64>()
+    };
+    // Ground 8 to 25 m away.
+    let rows = SIZE_PX[1] / 4..SIZE_PX[1] / 3;
+    let pairs = || rows.clone().flat_map(|y| (1..SIZE_PX[0] / 2).map(move |x| (x, y)));
+    let differences: f64 = pairs().map(|(x, y)| (at(x, y) - at(x - 1, y)).abs()).sum();
+    differences / pairs().map(|(x, y)| at(x, y)).sum::<f64>()
+}
+
+/// Seen at a slant, pixels are long: low quality, too, shows the pattern there and not stripes of its mean.
+#[test]
+fn the_ground_before_the_feet_is_not_smeared() {
+    let mut gpu = gpu();
+    let [low, medium] = [Quality::Low, Quality::Medium].map(|quality| graininess(&mut gpu, quality));
+    assert!(low > 0.8 * medium && low < 1.6 * medium, "{low} at low, {medium} at medium quality");
+}
+
 /// Lava glows at night, and flowing lava moves.
 #[test]
 fn lava_glows_and_flows() {

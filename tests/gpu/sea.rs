@@ -126,6 +126,29 @@ fn snells_window_is_overhead() {
     assert!(outside > down && outside < 5.0 * down, "{outside} outside of the window, {down} below");
 }
 
+/// Gusts and slicks are longer along the wind than across it. Here it blows from 77 degrees, from right to left.
+#[test]
+fn ripples_are_drawn_out_along_the_wind() {
+    let planet = sea(Water { fetch_km: 0.2, swell_m: 0.0, level_m: 500.0, ..Water::default() });
+    let camera = camera(&planet, 3.0, 10.0, 6000.0, 347.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let mut gpu = gpu();
+    gpu.draw_only(&frame(&surface, &planet, camera, (3.0, 32.0)), 1);
+    let ([width, height], light) = gpu.renderer.radiance().unwrap();
+    // Curvature over a distance of about the width of a patch: the glint itself is smooth.
+    let curvature = |step: [u32; 2]| {
+        let (away_x, away_y) = (step[0] as usize, step[1] as usize);
+        // The water itself is not red.
+        let at = |x: usize, y: usize| f64::from(light[y * width as usize + x][0]);
+        let inside = (8..height as usize - 8).flat_map(|y| (8..width as usize - 8).map(move |x| (x, y)));
+        inside
+            .map(|(x, y)| (at(x + away_x, y + away_y) - 2.0 * at(x, y) + at(x - away_x, y - away_y)).abs() / at(x, y))
+            .sum::<f64>()
+    };
+    let (along, across) = (curvature([4, 0]), curvature([0, 4]));
+    assert!(across > 1.4 * along, "{along} along the wind, {across} across it");
+}
+
 /// Near the temperature of freezing there is ice and open water; where it is colder, ice alone.
 #[test]
 fn floes_cover_more_where_it_is_colder() {

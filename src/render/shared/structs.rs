@@ -302,6 +302,8 @@ uniform_struct! {
         wave_steps: u32,
         /// Standard deviation of the height of all waves.
         wave_deviation_m: f32,
+        /// Direction to which the wind at the eye blows over the sea, a unit tangent; 0 without a sea.
+        sea_wind: Vec3,
         /// 1 where the eye is under the waves.
         eye_is_under: u32,
         /// Depth of the sea under the eye, its gradient and the share of ice there.

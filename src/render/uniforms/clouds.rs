@@ -123,7 +123,7 @@ fn layers(planet: &Planet, clouds: &Clouds, quality: Quality) -> [Layer; CLOUD_L
             bottom_km: clouds.altitude_km,
             thickness_km: clouds.thickness_km,
             optical_depth: clouds.density,
-            effort: at([11.0, 2.0], [28.0, 4.0], [44.0, 4.0]),
+            effort: at([17.0, 2.0], [28.0, 4.0], [44.0, 4.0]),
             bands: [LOW_PUFF_BAND, LOW_BANDS - LOW_PUFF_BAND],
             puff_period_km,
         },

@@ -4,7 +4,7 @@ use super::{Body, rgb, wrapped};
 use crate::lod::Quality;
 use crate::planet::{Planet, Water};
 use crate::render::shared::{CALM_SLOPE_VARIANCE, FLOE_GRID, Wave};
-use crate::sea::{Column, Waves};
+use crate::sea::{Column, Waves, relative_wind};
 use crate::terrain::Terrain;
 use glam::{DVec3, Vec3};
 use std::f64::consts::TAU;
@@ -47,7 +47,12 @@ pub(super) fn from_eye(
     let over_m = eye_m.length().max(1.0) - planet.radius_m() - water.level_m;
     out.eye_over_sea_km = (over_m * 1e-3) as f32;
     let up = eye_m.normalize_or(DVec3::Z);
-    let waves = Waves::of(planet, terrain.weather().map(|weather| &**weather), up);
+    let weather = terrain.weather().map(|weather| &**weather);
+    let waves = Waves::of(planet, weather, up);
+    out.sea_wind = match planet.water {
+        Some(_) => relative_wind(planet, weather, up).normalize_or_zero().as_vec3(),
+        None => Vec3::ZERO,
+    };
     let shown = waves.all().iter().filter(|wave| TAU / wave.vector_per_m.length() > LEAST_ANGLE * over_m.abs());
     out.wave_count = 0;
     for (slot, wave) in out.waves.iter_mut().zip(shown) {
