@@ -170,7 +170,13 @@ struct March {
     // Weighted sum of distances, and sum of the weights
     distance: f32,
     weight: f32,
+    // Share of light from beneath that comes through scattered
+    spread: f32,
 }
+
+// Widths of a pixel over the height of a cloud between which it shows the ground in the light that the cloud scatters on
+// its way up: that light comes from as far around as the cloud is high. Without it thin cloud over land would be grey.
+const SPREAD_WIDTHS: vec2f = vec2f(0.1, 0.5);
 
 fn march(into: March, way: Way, jitter: f32) -> March {
     var out = into;
@@ -295,6 +301,8 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             out.light += seen * shine;
             out.distance += seen * here;
             out.weight += seen;
+            out.spread += seen * from_above * smoothstep(SPREAD_WIDTHS.x, SPREAD_WIDTHS.y, here * frame.pixel_rad / bottom)
+                * let_through(both);
             out.transmittance *= passed;
             if out.transmittance < 0.004 { out.transmittance = 0.0; break; }
         }
@@ -302,6 +310,16 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     }
     return out;
 }
+
+// Noise of a band at a point, a whole number of times finer.
+fn veil_noise(band: Octave, at: vec3f, finer: f32, footprint: f32) -> f32 {
+    let lod = log2(max(footprint * finer * NOISE_TILE_SIDE / band.period, 1e-6));
+    return textureSampleLevel(noise_tile, repeated, finer * (band.offset + at / band.period), lod).g;
+}
+
+// Depth of the middle of a veil over the mean where it covers the sky: covers are distributed evenly, so that their
+// squares have a third as their mean, and depths keep theirs.
+const VEIL_MIDDLE: f32 = 1.5;
 
 struct Sheet {
     light: vec3f,
@@ -325,13 +343,17 @@ fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
     let footprint = t * frame.pixel_rad;
     let cover = sky_over(up, footprint).veil;
     if cover <= 0.0 { return out; }
-    // Streaks where the map is too coarse for them.
-    let band = body.cloud_bands[1];
-    let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1e-6));
+    // Streaks where the map is too coarse for them; from afar the coarsest of them tear the veil into wisps.
     let carried = drifted(rel);
-    let streak = textureSampleLevel(noise_tile, repeated, band.offset + carried / band.period, lod).g;
-    let fine = textureSampleLevel(noise_tile, repeated, 4.0 * (band.offset + carried / band.period), lod + 2.0).g;
-    let depth = body.veil_depth * cover * (0.4 + 0.8 * streak + 0.4 * fine) / max(abs(dot(dir, up)), 0.12);
+    let coarse = body.cloud_bands[0];
+    let band = body.cloud_bands[1];
+    let torn = veil_noise(coarse, carried, 1.0, footprint);
+    let streak = veil_noise(band, OCTAVE_TURN * carried, 1.0, footprint);
+    let fine = veil_noise(band, OCTAVE_TURN * carried, 4.0, footprint);
+    // Most of a veil is thin, most of all towards its borders: the same depth up to there would be a ribbon wherever the
+    // wind has drawn the map out.
+    let thickness = VEIL_MIDDLE * cover * cover * mix(0.4, 1.6, torn);
+    let depth = body.veil_depth * thickness * (0.4 + 0.8 * streak + 0.4 * fine) / max(abs(dot(dir, up)), 0.12);
     let scattered = 1.0 - exp(-depth);
     // From above, half of the light from beneath that the sheet scatters still goes up.
     out.transmittance = 1.0 - scattered * select(1.0, 0.5, h > sheet);
@@ -401,16 +423,16 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     // Jitter between neighbouring pixels hides the steps, which would show as terraces.
     let jitter = jitter_of(pixel);
     var light = vec3f(0.0);
-    var state = March(vec3f(0.0), 1.0, 0.0, 0.0);
+    var state = March(vec3f(0.0), 1.0, 0.0, 0.0, 0.0);
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun(i);
-        state = March(vec3f(0.0), 1.0, 0.0, 0.0);
+        state = March(vec3f(0.0), 1.0, 0.0, 0.0, 0.0);
         for (var k = 0u; k < count && state.transmittance > 0.0; k++) {
             state = march(state, Way(dir, mu, ways[k].x, ways[k].y, ways[k].z, u32(ways[k].w)), jitter);
         }
         light += state.light;
     }
-    var transmittance = state.transmittance;
+    var transmittance = min(state.transmittance + state.spread, 1.0);
     let sheet = veil(dir, mu, far);
     if sheet.transmittance < 1.0 {
         if h > body.veil_km {
