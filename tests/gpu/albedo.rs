@@ -217,3 +217,17 @@ fn closed_cloud_is_white() {
         }
     }
 }
+
+/// Thin cloud over snow sends back its own light and that of the snow beneath: all but the few percent that the air takes.
+/// Without the latter it would be a grey ribbon. Two streams, over snow of 0.8: 0.34 + 0.66^2 * 0.8 / (1 - 0.34 * 0.8).
+#[test]
+fn thin_cloud_over_snow_is_white() {
+    let preset = preset("hoarfrost.ron");
+    let thin = |clouds| Clouds { coverage: 0.0, veil: 0.0, fog: 0.0, middle: 1.0, middle_density: 4.0, ..clouds };
+    let snow = |clouds: Option<Clouds>| {
+        let planet = Arc::new(Planet { clouds, ..preset.clone() });
+        reflected_at(&planet, &[middle_of(&planet, "Fresh snow")])["Fresh snow"].from_orbit
+    };
+    let (clear, under) = (snow(None), snow(preset.clouds.clone().map(thin)));
+    assert!(under > 0.8 * clear, "{under} under thin cloud, {clear} without");
+}

@@ -179,6 +179,38 @@ fn white_is_white_and_the_open_sea_is_dark() {
     }
 }
 
+/// Places for a report: the preset, latitude, longitude, altitude, heading and pitch of the camera, and longitude of the
+/// star.
+const REPORTED: [(&str, [f64; 6]); 5] = [
+    ("aurel.ron", [-15.03, -77.8, 2.0, 60.0, -8.0, -110.0]),
+    ("aurel.ron", [-15.03, -77.8, 12_000.0, 60.0, -15.0, -110.0]),
+    ("maren.ron", [5.0, -120.0, 300.0, 90.0, 6.0, -150.0]),
+    ("maren.ron", [5.0, -120.0, 3000.0, 90.0, -8.0, -150.0]),
+    ("maren.ron", [5.0, -120.0, 60_000.0, 270.0, -45.0, -165.0]),
+];
+
+/// Prints milliseconds of a frame of 640 x 360 at low quality.
+#[test]
+#[ignore = "long: a report of figures"]
+fn report_what_low_quality_costs() {
+    let mut gpu = gpu();
+    for (file, [lat, lon, altitude_m, heading, pitch, star_lon]) in REPORTED {
+        let planet = Arc::new(preset(file));
+        let angles = [heading, pitch].map(f64::to_radians);
+        let camera = camera_over(&terrain(&planet), LatLon::from_degrees(lat, lon), altitude_m, angles);
+        let view = View { camera, size_px: [640, 360], quality: Quality::Low };
+        let surface = surface_of(&planet, &view);
+        let frame = frame_of(&surface, &planet, view, LatLon::from_degrees(5.0, star_lon).direction());
+        gpu.draw_only(&frame, 2);
+        let times = (0..15).map(|_| {
+            let begun = std::time::Instant::now();
+            gpu.draw_only(&frame, 1);
+            begun.elapsed().as_secs_f64() * 1e3
+        });
+        println!("{file} from {altitude_m} m: {:.1} ms", times.fold(f64::MAX, f64::min));
+    }
+}
+
 /// Directions spread evenly over the sphere.
 fn spread(count: usize) -> impl Iterator<Item = DVec3> {
     (0..count).map(move |i| {
