@@ -174,8 +174,8 @@ struct March {
     spread: f32,
 }
 
-// Widths of a pixel over the height of a cloud between which it shows the ground in the light that the cloud scatters on
-// its way up: that light comes from as far around as the cloud is high. Without it thin cloud over land would be grey.
+// Widths of a pixel over the height of a cloud between which it shows the ground in light that the cloud scatters on its
+// way up: that light comes from as far around as the cloud is high. Without it thin cloud over land would be grey.
 const SPREAD_WIDTHS: vec2f = vec2f(0.1, 0.5);
 
 fn march(into: March, way: Way, jitter: f32) -> March {
@@ -301,8 +301,8 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             out.light += seen * shine;
             out.distance += seen * here;
             out.weight += seen;
-            out.spread += seen * from_above * smoothstep(SPREAD_WIDTHS.x, SPREAD_WIDTHS.y, here * frame.pixel_rad / bottom)
-                * let_through(both);
+            let wide = smoothstep(SPREAD_WIDTHS.x, SPREAD_WIDTHS.y, here * frame.pixel_rad / max(bottom, 0.01));
+            out.spread += seen * from_above * wide * let_through(both);
             out.transmittance *= passed;
             if out.transmittance < 0.004 { out.transmittance = 0.0; break; }
         }
@@ -350,8 +350,8 @@ fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
     let torn = veil_noise(coarse, carried, 1.0, footprint);
     let streak = veil_noise(band, OCTAVE_TURN * carried, 1.0, footprint);
     let fine = veil_noise(band, OCTAVE_TURN * carried, 4.0, footprint);
-    // Most of a veil is thin, most of all towards its borders: the same depth up to there would be a ribbon wherever the
-    // wind has drawn the map out.
+    // Most of a veil is thin, most of all towards its borders: the same depth up to there would be a ribbon wherever
+    // the wind has drawn the map out.
     let thickness = VEIL_MIDDLE * cover * cover * mix(0.4, 1.6, torn);
     let depth = body.veil_depth * thickness * (0.4 + 0.8 * streak + 0.4 * fine) / max(abs(dot(dir, up)), 0.12);
     let scattered = 1.0 - exp(-depth);

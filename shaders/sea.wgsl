@@ -107,7 +107,8 @@ fn streaks(rel_m: vec3f, up: vec3f, footprint_m: f32, octaves: vec2u) -> vec2f {
             var here = vec2f(0.0);
             for (var k = 0; k < STREAK_POINTS; k++) {
                 let aside = (f32(k) - 0.5 * f32(STREAK_POINTS - 1)) * STREAK_STEP;
-                here += textureSampleLevel(noise_tile, repeated, (at + along * aside).zxy, max(lod, STREAK_LOD)).rg - 0.5;
+                let place = (at + along * aside).zxy;
+                here += textureSampleLevel(noise_tile, repeated, place, max(lod, STREAK_LOD)).rg - 0.5;
             }
             sum += here * (share * STREAK_GAIN / f32(STREAK_POINTS));
         }

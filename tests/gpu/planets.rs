@@ -179,7 +179,7 @@ fn white_is_white_and_the_open_sea_is_dark() {
     }
 }
 
-/// Places for a report: the preset, latitude, longitude, altitude, heading and pitch of the camera, and longitude of the
+/// Places for a report: the preset; latitude, longitude, altitude, heading and pitch of the camera; longitude of the
 /// star.
 const REPORTED: [(&str, [f64; 6]); 5] = [
     ("aurel.ron", [-15.03, -77.8, 2.0, 60.0, -8.0, -110.0]),
