@@ -174,8 +174,8 @@ struct March {
     spread: f32,
 }
 
-// Widths of a pixel over the height of a cloud between which it shows the ground in light that the cloud scatters on its
-// way up: that light comes from as far around as the cloud is high. Without it thin cloud over land would be grey.
+// Widths of a pixel over the height of a cloud between which it shows the ground in light that the cloud scatters on
+// its way up: that light comes from as far around as the cloud is high. Without it thin cloud over land would be grey.
 const SPREAD_WIDTHS: vec2f = vec2f(0.1, 0.5);
 
 fn march(into: March, way: Way, jitter: f32) -> March {

@@ -7,9 +7,9 @@
 //! distances; here each vertex has its own distance.)
 //!
 //! Vertices born three or more levels before the tile's are always exact: no tile is as far from the eye as the
-//! distance at which they begin to appear ([`super::range`]). Ground steeper than some 80 degrees reaches so far all the
-//! same. There a finer tile has a vertex exact that a coarser neighbour still morphs; so those of the neighbour that
-//! lie on the edge between them are exact, too, or the ground would have a gap.
+//! distance at which they begin to appear ([`super::range`]). Ground steeper than some 80 degrees reaches so far all
+//! the same. There a finer tile has a vertex exact that a coarser neighbour still morphs; so those of the neighbour
+//! that lie on the edge between them are exact, too, or the ground would have a gap.
 
 use super::chords::chords;
 use super::range::{FULL_AT, Ranges};

@@ -129,7 +129,7 @@ impl Terrain {
     }
 
     fn find_ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3]) -> Vec<f64> {
-        // The scratch of the thread is in use. It is too large for a stack that is as deep as edits lie over one another.
+        // The scratch of the thread is in use. It is too large for a stack as deep as edits lie over one another.
         let mut scratch = new_scratch();
         let mut heights_m = Vec::with_capacity(dirs.len());
         for dirs in dirs.chunks(CHUNK) {

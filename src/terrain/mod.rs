@@ -210,7 +210,8 @@ impl Terrain {
             Arc::make_mut(under).set_maps(&Maps { plates, weather: None });
         }
         self.climate.world = world;
-        self.memory = Arc::default();
+        let ground = crate::planet::Key::of(&(self.planet.radius_km, self.tile_keys().heights));
+        self.memory = self.edits.as_ref().map(|edits| edits.memory(ground)).unwrap_or_default();
         self.height_bounds_m = self.with_relief(self.with_edits(self.stack.bounds_m(), None));
         self
     }

@@ -116,3 +116,33 @@ fn many_strokes_that_read_the_ground_lie_over_one_another() {
     let height_m = std::thread::Builder::new().stack_size(2 << 20).spawn(ask).unwrap().join().unwrap();
     assert!(height_m.is_finite());
 }
+
+/// A stroke more takes what those before it have found out; all else is as if it had been evaluated alone.
+#[test]
+fn strokes_that_read_the_ground_know_what_earlier_revisions_found() {
+    let stroke = |lon_deg: f64, strength: f64| {
+        edit(Tool::Smooth(Smooth { size: 0.3, strength }), 20.0, &[at(12.0, lon_deg), at(12.3, lon_deg + 0.5)])
+    };
+    let gullies = |lon_deg: f64| edit(Tool::Hydraulic(Hydraulic::default()), 30.0, &[at(12.1, lon_deg)]);
+    let dirs: Vec<_> = (0..400).map(|i| beside(&at(12.1, -69.9), f64::from(i) * 31.0, f64::from(i) * 0.15)).collect();
+    let mut stepwise = planet(900.0, vec![]);
+    let mut seen = Vec::new();
+    for step in 0..10 {
+        match step {
+            0 | 3 | 6 => stepwise.edits.push(stroke(-70.0 + 0.05 * f64::from(step), 0.9)),
+            1 | 4 => stepwise.edits.push(gullies(-69.9 - 0.02 * f64::from(step))),
+            // Under those that read it, and the ground under all edits.
+            2 => stepwise.edits.insert(0, edit(Tool::Volcano(Volcano::default()), 15.0, &[at(12.1, -69.8)])),
+            5 => stepwise.edits.get_mut(1).unwrap().radius_km = 25.0,
+            7 => stepwise.edits.shift(1, 3),
+            8 => stepwise.layers[0].amplitude_m = 1100.0,
+            _ => drop(stepwise.edits.remove(2)),
+        }
+        let found = terrain(&stepwise).heights_m(&dirs);
+        // Another planet in between: nothing is kept.
+        drop(terrain(&planet(500.0, vec![stroke(-70.0, 1.0)])));
+        assert_eq!(terrain(&stepwise).heights_m(&dirs), found, "{step}");
+        assert!(!seen.contains(&found), "{step}");
+        seen.push(found);
+    }
+}

@@ -1,6 +1,6 @@
 //! Time and memory of ten thousand strokes all over a planet: full rebuilds of views near and far, with the strokes and
-//! without, and the time from one stroke more to its tiles and to its picture. Once on a planet of one layer, which is the worst case, and
-//! once on a shipped planet.
+//! without, and the time from one stroke more to its tiles and to its picture. Once on a planet of one layer, which is
+//! the worst case, and once on a shipped planet.
 
 use super::super::headless::Gpu;
 use super::edits::Bench;

@@ -4,6 +4,7 @@ use super::gullies::{Carved, Gullies};
 use super::index::{Hash, Piece, chord_of};
 use super::limits::Limits;
 use super::mask::{EditMask, ShareAt};
+use super::memory::LatticeKey;
 use super::nearest::Nearest;
 use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
@@ -60,6 +61,8 @@ pub(super) struct CompiledEdit {
     pub(super) range: Widening,
     /// Hash of what the edit depends on besides its own numbers; part of the hashes of its pieces.
     context: u128,
+    /// Hash of its numbers without its line.
+    own: u128,
 }
 
 /// Of a road at a point: sums over near arcs of weight and of weight times height, each with its gradient.
@@ -185,15 +188,16 @@ impl CompiledEdit {
             mask: edit.limiting_mask().filter(|_| !edit.is_scattered()).map(|name| EditMask::new(name, edit)),
             range: tool.range(heights_m).then(Widening::by(ROUNDING_M, ROUNDING_M)),
             context: 0,
+            own: 0,
             tool,
             arcs,
         };
-        compiled.pieces = compiled.cut(edit);
+        (compiled.own, compiled.pieces) = compiled.cut(edit);
         compiled
     }
 
-    /// The pieces of the line.
-    fn cut(&self, edit: &GroundEdit) -> Vec<Piece> {
+    /// The hash of its numbers without its line, and the pieces of the line.
+    fn cut(&self, edit: &GroundEdit) -> (u128, Vec<Piece>) {
         let reach_rad = self.radius_rad * self.tool.reach();
         let mut common = Hash::default();
         self.tool.hash(&mut common);
@@ -250,7 +254,7 @@ impl CompiledEdit {
         let firsts = (0..self.arcs.len()).step_by(image).flat_map(|begin| {
             (begin..begin + image).step_by(size).map(move |first| (first, (first + size).min(begin + image)))
         });
-        firsts.map(|(first, end)| piece((first, &self.arcs[first..end]))).collect()
+        (common.0, firsts.map(|(first, end)| piece((first, &self.arcs[first..end]))).collect())
     }
 
     /// The edit with another context, which is part of the content of its pieces. None if that is its context already.
@@ -261,6 +265,14 @@ impl CompiledEdit {
         let mut next = Self { context, ..self.clone() };
         next.pieces.iter_mut().for_each(|piece| piece.hash ^= self.context ^ context);
         Some(next)
+    }
+
+    /// Tells its lattices from those of other edits and of other ground. Points that are added to a line leave it, as
+    /// long as no other edit comes near.
+    pub(super) fn lattice_key(&self) -> LatticeKey {
+        let mut key = Hash(self.own);
+        [self.context as u64, (self.context >> 64) as u64].into_iter().for_each(|word| key.add(word));
+        key.0
     }
 
     /// Whether the edit acts around each of its places alone.

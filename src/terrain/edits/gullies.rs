@@ -7,9 +7,9 @@
 //! coarser gullies in it, so that gullies branch, and leaves the crests and beds of those free.
 
 use super::Ground;
-use super::memory::{Known, Node, Nodes};
+use super::memory::{Known, LatticeKey, Node, Nodes};
 use super::outline::seen;
-use super::reading::heights;
+use super::reading::{ReadBy, heights};
 use super::smooth::Lattice;
 use crate::planet::edits::Hydraulic;
 use crate::world::noise::mix;
@@ -18,6 +18,11 @@ use std::f64::consts::TAU;
 
 /// Most octaves of gullies.
 pub(super) const MOST_OCTAVES: usize = 6;
+/// The cells of an octave, for the edit whose lattices have this key.
+pub(super) fn lattice_of(edit: LatticeKey, octave: usize) -> LatticeKey {
+    edit.wrapping_add((octave as u128 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C835))
+}
+
 /// Ground is smooth over this many widths of the largest gullies.
 const COARSER: f64 = 2.5;
 /// Side of a cell, in widths of a gully: wide cells make long gullies.
@@ -202,8 +207,8 @@ impl Gullies {
         self.lattice.reach_rad() + 1.1 * cells
     }
 
-    /// Finds the waves around directions, for the edit in a slot.
-    pub(super) fn read(&self, slot: u32, dirs: impl Iterator<Item = DVec3>, ground: &Ground<'_>) -> Vec<Known<Cell>> {
+    /// Finds the waves around directions, for an edit.
+    pub(super) fn read(&self, of: ReadBy, dirs: impl Iterator<Item = DVec3>, ground: &Ground<'_>) -> Vec<Known<Cell>> {
         let mut wanted: Vec<Nodes> = self.octaves.iter().map(|_| Nodes::default()).collect();
         for dir in dirs {
             for (octave, wanted) in self.octaves.iter().zip(&mut wanted) {
@@ -212,12 +217,12 @@ impl Gullies {
                 });
             }
         }
-        let number = |k: usize| slot * MOST_OCTAVES as u32 + k as u32;
+        let lattice_of = |k: usize| lattice_of(of.lattice, k);
         // From the finest on: a new cell needs the coarser cells around it.
         let mut known: Vec<Known<Cell>> = self.octaves.iter().map(|_| Known::default()).collect();
         let mut missing: Vec<Vec<(Node, DVec3)>> = vec![Vec::new(); self.octaves.len()];
         for (k, octave) in self.octaves.iter().enumerate().rev() {
-            let (found, lacking) = ground.memory.cells.recall(number(k), std::mem::take(&mut wanted[k]));
+            let (found, lacking) = ground.memory.cells.recall(lattice_of(k), std::mem::take(&mut wanted[k]));
             known[k] = found;
             missing[k] = lacking.into_iter().map(|node| (node, octave.middle(node).normalize_or(DVec3::Z))).collect();
             for (_, middle) in &missing[k] {
@@ -229,7 +234,7 @@ impl Gullies {
             }
         }
         let middles = missing.iter().flatten().map(|(_, middle)| *middle);
-        let smooth = heights(&self.lattice, slot, middles, ground);
+        let smooth = heights(&self.lattice, of, middles, ground);
         for (k, (octave, new)) in self.octaves.iter().zip(missing).enumerate() {
             let cell = |(node, middle): (Node, DVec3)| {
                 let coarser = self.octaves[..k].iter().zip(&known);
@@ -240,7 +245,7 @@ impl Gullies {
                 (node, Cell { phase: middle.cross(led).normalize_or_zero() * (TAU / octave.width), steep })
             };
             let new: Vec<(Node, Cell)> = new.into_iter().map(cell).collect();
-            ground.memory.cells.keep(number(k), &new);
+            ground.memory.cells.keep(lattice_of(k), &new);
             known[k].extend(new);
         }
         known

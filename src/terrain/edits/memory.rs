@@ -1,9 +1,11 @@
-//! What edits that read the ground have found out about it, node by node of a lattice. One terrain has one memory.
+//! What edits that read the ground have found out about it, node by node of a lattice. Terrains with the same ground
+//! under all edits share one memory: a stroke more leaves what those before it know.
 
 use super::gullies::Cell;
+use crate::planet::Key;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Parts of a memory, each with a lock of its own.
 const PARTS: usize = 16;
@@ -15,6 +17,9 @@ pub(super) type Nodes = HashSet<Node, BuildHasherDefault<Mixer>>;
 /// What is known of nodes.
 pub(super) type Known<V> = HashMap<Node, V, BuildHasherDefault<Mixer>>;
 
+/// Tells a lattice and the ground that it lies in: a hash of the edits before it that are near, and of what reads them.
+pub(super) type LatticeKey = u128;
+
 /// The memory of all edits that read the ground, as far as they were asked.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
@@ -24,10 +29,27 @@ pub(crate) struct Memory {
     pub(super) cells: Lattices<Cell>,
 }
 
-/// Lattices by their numbers.
+impl Memory {
+    /// The memory of the terrains whose ground under all edits has this key. It forgets the lattices that are not among
+    /// `used`; terrains of earlier revisions find them out again where they still ask.
+    pub(super) fn of(ground: Key, used: &HashSet<LatticeKey>) -> Arc<Self> {
+        static LAST: Mutex<Option<(Key, Arc<Memory>)>> = Mutex::new(None);
+        let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+        let memory = match &*last {
+            Some((key, memory)) if *key == ground => memory.clone(),
+            _ => Arc::default(),
+        };
+        memory.heights.retain(used);
+        memory.cells.retain(used);
+        *last = Some((ground, memory.clone()));
+        memory
+    }
+}
+
+/// Lattices by their keys.
 #[derive(Debug)]
 pub(super) struct Lattices<V> {
-    parts: [Mutex<HashMap<u32, Known<V>>>; PARTS],
+    parts: [Mutex<HashMap<LatticeKey, Known<V>>>; PARTS],
 }
 
 impl<V> Default for Lattices<V> {
@@ -37,9 +59,19 @@ impl<V> Default for Lattices<V> {
 }
 
 impl<V: Copy> Lattices<V> {
+    fn part(&self, lattice: LatticeKey) -> MutexGuard<'_, HashMap<LatticeKey, Known<V>>> {
+        self.parts[(lattice % PARTS as u128) as usize].lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn retain(&self, used: &HashSet<LatticeKey>) {
+        for part in &self.parts {
+            part.lock().unwrap_or_else(PoisonError::into_inner).retain(|lattice, _| used.contains(lattice));
+        }
+    }
+
     /// What is known of nodes of a lattice, and the nodes of which nothing is known.
-    pub(super) fn recall(&self, lattice: u32, nodes: Nodes) -> (Known<V>, Vec<Node>) {
-        let part = self.parts[lattice as usize % PARTS].lock().unwrap_or_else(PoisonError::into_inner);
+    pub(super) fn recall(&self, lattice: LatticeKey, nodes: Nodes) -> (Known<V>, Vec<Node>) {
+        let part = self.part(lattice);
         let Some(of_lattice) = part.get(&lattice) else { return (Known::default(), nodes.into_iter().collect()) };
         let (mut known, mut missing) = (Known::default(), Vec::new());
         for node in nodes {
@@ -53,8 +85,8 @@ impl<V: Copy> Lattices<V> {
     }
 
     /// Remembers nodes.
-    pub(super) fn keep(&self, lattice: u32, new: &[(Node, V)]) {
-        let mut part = self.parts[lattice as usize % PARTS].lock().unwrap_or_else(PoisonError::into_inner);
+    pub(super) fn keep(&self, lattice: LatticeKey, new: &[(Node, V)]) {
+        let mut part = self.part(lattice);
         part.entry(lattice).or_default().extend(new.iter().copied());
     }
 }

@@ -64,7 +64,7 @@ pub(crate) use near::Near;
 use near::{Hit, Touch};
 pub(crate) use paint::Painted;
 use paint::{Paint, Places};
-use reading::Reader;
+use reading::{ReadBy, Reader};
 use roster::{Roster, slot_of};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -226,6 +226,18 @@ impl Edits {
         Arc::new(Self { places, ..self.as_ref().clone() })
     }
 
+    /// The memory of edits that read ground which has this key before all edits.
+    pub(crate) fn memory(&self, ground: Key) -> Arc<Memory> {
+        if !self.reads {
+            return Arc::default();
+        }
+        let lattices = self.roster.reading().flat_map(|(_, edit)| {
+            let key = edit.lattice_key();
+            std::iter::once(key).chain((0..gullies::MOST_OCTAVES).map(move |k| gullies::lattice_of(key, k)))
+        });
+        Memory::of(ground, &lattices.collect())
+    }
+
     /// The key of all edits of the ground. None if there is none.
     pub(crate) fn key(&self) -> Option<Key> {
         (!self.ground.is_empty()).then(|| Self::with_masks(self.key, self.masked.ground, || self.mask_key()))
@@ -275,9 +287,8 @@ impl Edits {
         let end = before.map_or(u32::MAX, |slot| self.roster.rank_of(slot));
         let acts = |slot: u32, _: &CompiledEdit| self.roster.rank_of(slot) < end;
         near.each_touch(&self.ground, &self.roster, dirs, acts, |Touch { slot, edit, arcs, hits }| {
-            let reader = edit.reader.as_ref();
-            let around =
-                reader.map(|reader| (reader, reader.read(slot, hits.iter().map(|hit| dirs[hit.point]), ground)));
+            let (reader, of) = (edit.reader.as_ref(), ReadBy { slot, lattice: edit.lattice_key() });
+            let around = reader.map(|reader| (reader, reader.read(of, hits.iter().map(|hit| dirs[hit.point]), ground)));
             let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), spacings_rad);
             for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
                 let (i, dir, share) = (*i, dirs[*i], shares.of(own));

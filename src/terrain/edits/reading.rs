@@ -2,7 +2,7 @@
 
 use super::Ground;
 use super::gullies::{Carved, Gullies};
-use super::memory::{Known, Memory, Nodes};
+use super::memory::{Known, LatticeKey, Memory, Nodes};
 use super::smooth::Lattice;
 use glam::DVec3;
 
@@ -39,11 +39,11 @@ impl Reader {
         }
     }
 
-    /// Reads what the edit in a slot needs at some points.
-    pub(super) fn read(&self, slot: u32, dirs: impl Iterator<Item = DVec3>, ground: &Ground<'_>) -> Surroundings {
+    /// Reads what an edit needs at some points.
+    pub(super) fn read(&self, of: ReadBy, dirs: impl Iterator<Item = DVec3>, ground: &Ground<'_>) -> Surroundings {
         match self {
-            Reader::Smooth(lattice) => Surroundings::Smooth(heights(lattice, slot, dirs, ground)),
-            Reader::Gullies(gullies) => Surroundings::Gullies(gullies.read(slot, dirs, ground)),
+            Reader::Smooth(lattice) => Surroundings::Smooth(heights(lattice, of, dirs, ground)),
+            Reader::Gullies(gullies) => Surroundings::Gullies(gullies.read(of, dirs, ground)),
         }
     }
 
@@ -60,10 +60,17 @@ impl Reader {
     }
 }
 
-/// The heights of the nodes of smooth ground around directions, for the edit in a slot.
+/// The edit that reads: its slot, and the key of its lattices.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ReadBy {
+    pub(super) slot: u32,
+    pub(super) lattice: LatticeKey,
+}
+
+/// The heights of the nodes of smooth ground around directions, for an edit.
 pub(super) fn heights(
     lattice: &Lattice,
-    slot: u32,
+    of: ReadBy,
     dirs: impl Iterator<Item = DVec3>,
     ground: &Ground<'_>,
 ) -> Known<f64> {
@@ -74,12 +81,12 @@ pub(super) fn heights(
         });
     }
     let memory: &Memory = ground.memory;
-    let (mut known, missing) = memory.heights.recall(slot, nodes);
+    let (mut known, missing) = memory.heights.recall(of.lattice, nodes);
     if !missing.is_empty() {
         // No lock is held: the ground may be read there itself.
         let dirs: Vec<DVec3> = missing.iter().map(|node| lattice.dir(*node)).collect();
-        let new: Vec<_> = missing.into_iter().zip((ground.before)(slot, &dirs)).collect();
-        memory.heights.keep(slot, &new);
+        let new: Vec<_> = missing.into_iter().zip((ground.before)(of.slot, &dirs)).collect();
+        memory.heights.keep(of.lattice, &new);
         known.extend(new);
     }
     known
