@@ -8,7 +8,7 @@ use super::memory::LatticeKey;
 use super::nearest::Nearest;
 use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
-use super::path::{self, Arc, Taper, angle_of};
+use super::path::{self, Arc, Taper, angle_of, away};
 use super::reading::{Read, Reader};
 use super::smooth::Lattice;
 use super::stamp::{Stamp, Stamped};
@@ -495,10 +495,4 @@ impl CompiledEdit {
         let (cube, by_noise) = (share * share * share, 1.5 * share * share / outline::MOST);
         (1.0 + 4.0 * self.raggedness * cube, 4.0 * self.raggedness * by_noise)
     }
-}
-
-/// The unit tangent at a direction that points away from another one; zero where they are the same.
-fn away(dir: DVec3, from: DVec3) -> DVec3 {
-    let apart = dir - from;
-    (apart - dir * dir.dot(apart)).normalize_or_zero()
 }

@@ -201,6 +201,12 @@ pub(super) fn angle_of(chord2: f64) -> f64 {
     2.0 * libm::asin((0.5 * chord2.sqrt()).min(1.0))
 }
 
+/// The unit tangent at a direction that points away from another one; zero where they are the same.
+pub(super) fn away(dir: DVec3, from: DVec3) -> DVec3 {
+    let apart = dir - from;
+    (apart - dir * dir.dot(apart)).normalize_or_zero()
+}
+
 /// The places of a stamp and of its copies. A copy lies anywhere within the spread with equal chance, or as dense as
 /// the share of a mask; the number of copies above a size falls with its square.
 pub(super) fn places(edit: &GroundEdit, radius_m: f64, scatter: Option<ShareAt<'_>>) -> Vec<Arc> {
