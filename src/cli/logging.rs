@@ -18,7 +18,7 @@ const MOST_BYTES: u64 = 1 << 20;
 /// A log file; None as long as none is kept.
 type Kept = Arc<Mutex<Option<LogFile>>>;
 
-/// The logger of the process.
+/// The log file of the process.
 #[cfg_attr(not(feature = "editor"), allow(dead_code, reason = "the editor alone keeps a file"))]
 pub(super) struct Logging(Kept);
 
@@ -97,12 +97,10 @@ impl LogFile {
 
     /// Writes a line. Nobody is told where that fails: it would be logged.
     fn write(&mut self, record: &Record<'_>) {
-        if self.bytes >= MOST_BYTES {
-            let _ = self.path.parent().map(Self::open).transpose().map(|next| {
-                if let Some(next) = next {
-                    *self = Self { begun: self.begun, ..next };
-                }
-            });
+        if self.bytes >= MOST_BYTES
+            && let Some(Ok(next)) = self.path.parent().map(Self::open)
+        {
+            *self = Self { begun: self.begun, ..next };
         }
         let (secs, id) = (self.begun.elapsed().as_secs_f64(), std::process::id());
         let text = printable(&record.args().to_string()).replace('\n', " / ");

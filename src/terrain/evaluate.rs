@@ -61,6 +61,26 @@ pub(crate) struct JoinScratch {
 const MOST_DEEP: usize = 16;
 const STACK_BYTES: usize = 2 << 20;
 
+thread_local! {
+    /// How many of them are on the stack of this thread.
+    static DEPTH: Cell<usize> = const { Cell::new(0) };
+}
+
+/// One of them, for as long as it is on the stack; holds how many were there before it.
+struct Deeper(usize);
+
+impl Deeper {
+    fn new() -> Self {
+        Self(DEPTH.replace(DEPTH.get() + 1))
+    }
+}
+
+impl Drop for Deeper {
+    fn drop(&mut self) {
+        DEPTH.set(self.0);
+    }
+}
+
 /// A scratch on the heap, made in a frame of its own.
 #[inline(never)]
 fn new_scratch() -> Box<BatchScratch> {
@@ -110,12 +130,9 @@ impl Terrain {
     /// lie over one another by the hundred, and each asks for the ground before it: every few of them get a stack of
     /// their own.
     fn ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3]) -> Vec<f64> {
-        thread_local! {
-            static DEPTH: Cell<usize> = const { Cell::new(0) };
-        }
-        let depth = DEPTH.replace(DEPTH.get() + 1);
+        let deeper = Deeper::new();
         let find = || self.find_ground_before(edits, slot, dirs);
-        let heights_m = if depth < MOST_DEEP {
+        if deeper.0 < MOST_DEEP {
             find()
         } else {
             let stack = std::thread::Builder::new().name("ground".to_owned()).stack_size(STACK_BYTES);
@@ -123,9 +140,7 @@ impl Terrain {
                 Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
                 Err(_) => find(),
             })
-        };
-        DEPTH.set(depth);
-        heights_m
+        }
     }
 
     fn find_ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3]) -> Vec<f64> {

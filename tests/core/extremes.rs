@@ -16,9 +16,10 @@ use tellus::sphere::LatLon;
 use tellus::terrain::{Terrain, Wanted};
 use tellus::tiles::build_now;
 
-/// Planets at random ends in the suite and in the long tests, and how many of them get tiles: one of so many.
+/// Number of random planets in the suite, and in the long tests.
 const PLANETS: u64 = 120;
 const LONG_PLANETS: u64 = 10_000;
+/// Tiles are built of the planets whose seed this divides.
 const TILES_OF: u64 = 12;
 /// Seeds that had answers which were not finite.
 const FOUND: [u64; 1] = [2064];

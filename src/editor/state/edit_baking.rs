@@ -17,7 +17,7 @@ pub struct EditBaking {
     /// The picture.
     pub to: PathBuf,
     /// The planet that it was asked of.
-    pub asked: Arc<Planet>,
+    asked: Arc<Planet>,
     job: Job<Result<Option<Done>, String>>,
 }
 

@@ -1,7 +1,7 @@
 //! The list of ground edits of a planet. Copies share their edits until one of them is changed, so that a planet with
 //! thousands of edits is copied, compared and kept in undo steps at almost no cost.
 
-use super::{GroundEdit, MAX_ALL_PLACES, MAX_ALL_POINTS, MAX_EDIT_POINTS, MAX_EDITS, Tool};
+use super::{GroundEdit, MAX_ALL_COPIES, MAX_ALL_PLACES, MAX_ALL_POINTS, MAX_EDIT_POINTS, MAX_EDITS, Tool};
 use crate::planet::Biome;
 use crate::planet::param::{Form, Look, ParamPath, Params, Part, PartType, Segment, Visit};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -62,7 +62,9 @@ impl GroundEdits {
     /// Whether the planet may not have another edit with as many points as an edit may have.
     pub fn is_full(&self) -> bool {
         let points: usize = self.iter().map(|edit| edit.points.0.len()).sum();
-        self.len() >= MAX_EDITS || points + MAX_EDIT_POINTS > MAX_ALL_POINTS || self.place_count() > MAX_ALL_PLACES / 2
+        self.len() >= MAX_EDITS
+            || points + MAX_EDIT_POINTS > MAX_ALL_POINTS
+            || self.place_count() + MAX_ALL_COPIES > MAX_ALL_PLACES
     }
 
     /// How many points there are with the copies of stamps and the images by symmetry.

@@ -18,11 +18,6 @@ use std::f64::consts::TAU;
 
 /// Most octaves of gullies.
 pub(super) const MOST_OCTAVES: usize = 6;
-/// The cells of an octave, for the edit whose lattices have this key.
-pub(super) fn lattice_of(edit: LatticeKey, octave: usize) -> LatticeKey {
-    edit.wrapping_add((octave as u128 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C835))
-}
-
 /// Ground is smooth over this many widths of the largest gullies.
 const COARSER: f64 = 2.5;
 /// Side of a cell, in widths of a gully: wide cells make long gullies.
@@ -175,6 +170,11 @@ fn carve<'a>(
         free = (free.0 * flank, free.1 * flank + flank_by * free.0);
         (height.0 * octave.depth_m, height.1 * octave.depth_m)
     })
+}
+
+/// The cells of an octave, for the edit whose lattices have this key.
+pub(super) fn lattice_of(edit: LatticeKey, octave: usize) -> LatticeKey {
+    edit.wrapping_add((octave as u128 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C835))
 }
 
 impl Gullies {
