@@ -287,8 +287,10 @@ impl Edits {
         let end = before.map_or(u32::MAX, |slot| self.roster.rank_of(slot));
         let acts = |slot: u32, _: &CompiledEdit| self.roster.rank_of(slot) < end;
         near.each_touch(&self.ground, &self.roster, dirs, acts, |Touch { slot, edit, arcs, hits }| {
-            let (reader, of) = (edit.reader.as_ref(), ReadBy { slot, lattice: edit.lattice_key() });
-            let around = reader.map(|reader| (reader, reader.read(of, hits.iter().map(|hit| dirs[hit.point]), ground)));
+            let around = edit.reader.as_ref().map(|reader| {
+                let of = ReadBy { slot, lattice: edit.lattice_key() };
+                (reader, reader.read(of, hits.iter().map(|hit| dirs[hit.point]), ground))
+            });
             let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), spacings_rad);
             for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
                 let (i, dir, share) = (*i, dirs[*i], shares.of(own));

@@ -219,9 +219,9 @@ pub(super) fn places(edit: &GroundEdit, radius_m: f64, scatter: Option<ShareAt<'
         return edit.points.0.iter().map(|point| place(point.direction(), point)).collect();
     }
     let middles: Vec<DVec3> = edit.points.0.iter().map(EditPoint::direction).collect();
-    let copies: Vec<Copy> = (0..middles.len())
+    let copies: Vec<StampCopy> = (0..middles.len())
         .flat_map(|point| (0..edit.copies).map(move |copy| (point, copy)))
-        .map(|(point, copy)| Copy::new(edit.seed, point, copy))
+        .map(|(point, copy)| StampCopy::new(edit.seed, point, copy))
         .collect();
     let mut at: Vec<Option<DVec3>> = vec![None; copies.len()];
     let mut left: Vec<usize> = (0..copies.len()).collect();
@@ -240,7 +240,7 @@ pub(super) fn places(edit: &GroundEdit, radius_m: f64, scatter: Option<ShareAt<'
             break;
         }
     }
-    let lies = |(copy, at): (&Copy, Option<DVec3>)| {
+    let lies = |(copy, at): (&StampCopy, Option<DVec3>)| {
         let least = edit.smallest;
         let scale = least / (1.0 - copy.random(3) * (1.0 - least * least)).sqrt();
         Some(Arc { scale, turned: 2.0 * copy.random(4) - 1.0, ..place(at?, &edit.points.0[copy.point]) })
@@ -249,12 +249,12 @@ pub(super) fn places(edit: &GroundEdit, radius_m: f64, scatter: Option<ShareAt<'
 }
 
 /// A copy of a stamp around one of its points.
-struct Copy {
+struct StampCopy {
     point: usize,
     seed: u64,
 }
 
-impl Copy {
+impl StampCopy {
     fn new(seed: u32, point: usize, copy: u32) -> Self {
         Self { point, seed: mix(u64::from(seed) << 32 | u64::from(copy)).wrapping_add(mix(point as u64)) }
     }
