@@ -6,7 +6,7 @@ use super::param::ParamPath;
 use super::picture::folder_of;
 use super::problem::Problem;
 use super::root::Root;
-use super::{Planet, explain, locate, migrate, text, validate};
+use super::{Planet, beside, explain, locate, migrate, text, validate};
 use std::collections::{BTreeSet, HashMap};
 use std::fs::{File, Permissions};
 use std::io::{self, Read as _, Write as _};
@@ -68,29 +68,35 @@ impl Planet {
     pub fn load(path: impl AsRef<Path>) -> Result<Planet, LoadError> {
         let path = path.as_ref();
         let (file, text) = (path.display().to_string(), read_text(path)?);
-        let mut planet = Planet::from_text(&file, &text)?;
-        planet.set_folder(&folder_of(path));
-        let problems = planet.load_pictures();
-        if problems.is_empty() { Ok(planet) } else { Err(all_placed(&file, &text, problems)) }
+        Self::placed(&file, &text, &mut beside::in_folder_of(path), |planet| {
+            planet.set_folder(&folder_of(path));
+            planet.load_pictures()
+        })
     }
 
     /// Reads and checks a preset without its pictures: their layers are flat until [`Planet::load_pictures`].
     pub fn open(path: impl AsRef<Path>) -> Result<Planet, LoadError> {
         let path = path.as_ref();
-        let mut planet = Planet::from_text(&path.display().to_string(), &read_text(path)?)?;
-        planet.set_folder(&folder_of(path));
-        Ok(planet)
+        Self::from_text_of(path, &read_text(path)?)
     }
 
-    /// Reads and checks a preset from text, without its pictures; `file` names it in messages.
+    /// As [`Planet::open`], of a preset whose text has been read.
+    pub(crate) fn from_text_of(path: &Path, text: &str) -> Result<Planet, LoadError> {
+        Self::placed(&path.display().to_string(), text, &mut beside::in_folder_of(path), |planet| {
+            planet.set_folder(&folder_of(path));
+            Vec::new()
+        })
+    }
+
+    /// Reads and checks a preset from text, without its pictures; `file` names it in messages. A preset whose edits are
+    /// in a file beside it is refused: see [`Planet::from_pack`].
     pub fn from_text(file: &str, text: &str) -> Result<Planet, LoadError> {
-        let planet = parsed(file, text)?;
-        checked(file, text, &planet)?;
-        Ok(planet)
+        Self::placed(file, text, &mut beside::nowhere, |_| Vec::new())
     }
 
-    /// Reads and checks a preset from text, and its pictures from memory: of an asset pack, say. `fetch` gives the
-    /// bytes of the PNG or OpenEXR file at a path, as it is written in the preset, or says why it cannot.
+    /// Reads and checks a preset from text, and its files from memory: of an asset pack, say. `fetch` gives the bytes
+    /// of the file at a path, as it is written in the preset, or says why it cannot: those of PNG or OpenEXR pictures,
+    /// and those of the edits if they are in a file beside the preset.
     ///
     /// ```
     /// use tellus::planet::Planet;
@@ -105,9 +111,25 @@ impl Planet {
         text: &str,
         fetch: impl FnMut(&Path) -> Result<Vec<u8>, String>,
     ) -> Result<Planet, LoadError> {
-        let mut planet = Planet::from_text(file, text)?;
-        let problems = planet.load_pictures_from(fetch);
-        if problems.is_empty() { Ok(planet) } else { Err(all_placed(file, text, problems)) }
+        let fetch = std::cell::RefCell::new(fetch);
+        let mut edits = |name: &str| {
+            let bytes = fetch.borrow_mut()(Path::new(name))?;
+            String::from_utf8(bytes).map_err(|_| format!("{name}: the text is not UTF-8; save it as UTF-8"))
+        };
+        Self::placed(file, text, &mut edits, |planet| planet.load_pictures_from(|path| fetch.borrow_mut()(path)))
+    }
+
+    /// Reads and checks a preset, then what belongs to it. `complete` gives problems, which get their places.
+    fn placed(
+        file: &str,
+        text: &str,
+        fetch: &mut beside::Fetch<'_>,
+        complete: impl FnOnce(&mut Planet) -> Vec<(ParamPath, String)>,
+    ) -> Result<Planet, LoadError> {
+        let (mut planet, edits) = beside::parsed(file, text, fetch)?;
+        beside::checked(file, text, &planet, edits.as_ref())?;
+        let problems = complete(&mut planet);
+        if problems.is_empty() { Ok(planet) } else { Err(beside::placed(file, text, edits.as_ref(), problems)) }
     }
 
     /// The text of the preset, with comments. Stable: the text of a loaded text is the text.
@@ -117,26 +139,65 @@ impl Planet {
 
     /// Saves atomically: the old file stays until the new one is complete. Paths of pictures are rewritten relative to
     /// the new file. A planet that could not be loaded again is refused.
+    ///
+    /// Edits that would make the text longer than a MiB go to a file beside the preset, which names it.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
-        let path = path.as_ref();
+        self.save_text(path.as_ref()).map(drop)
+    }
+
+    /// As [`Planet::save`]. Gives the text of the preset.
+    pub(crate) fn save_text(&self, path: &Path) -> Result<String, SaveError> {
+        let planet = self.to_save(path)?;
         let failed = |message: String| SaveError { path: path.to_owned(), message };
+        let target = Target::checked(path).map_err(failed)?;
+        let beside::Texts { preset, edits } = beside::texts(&planet, &target.path);
+        if let Some((name, text)) = &edits {
+            check_length(text).and_then(|()| beside::write(&target.folder, name, text)).map_err(failed)?;
+        }
+        write_preset(path, &preset)?;
+        beside::sweep(&target.folder, &target.path);
+        Ok(preset)
+    }
+
+    /// As [`Planet::save`], with all edits in the preset.
+    pub(crate) fn save_in_one(&self, path: &Path) -> Result<(), SaveError> {
+        write_preset(path, &self.to_save(path)?.to_text())
+    }
+
+    /// The planet as a preset of this path holds it.
+    fn to_save(&self, path: &Path) -> Result<Planet, SaveError> {
         let planet = self.moved_to(&folder_of(path));
-        if let Some((place, message)) = validate::problems(&planet).into_iter().next() {
-            return Err(failed(format!("the planet is not valid and was not saved: {place}: {message}")));
+        match validate::problems(&planet).into_iter().next() {
+            None => Ok(planet),
+            Some((place, message)) => Err(SaveError {
+                path: path.to_owned(),
+                message: format!("the planet is not valid and was not saved: {place}: {message}"),
+            }),
         }
-        let text = planet.to_text();
-        if text.len() as u64 > MAX_FILE_BYTES {
-            let most = MAX_FILE_BYTES >> 20;
-            return Err(failed(format!(
-                "the preset would be longer than {most} MiB and was not saved; bake edits into a picture"
-            )));
-        }
-        write_atomically(path, text.as_bytes()).map_err(failed)
     }
 }
 
-/// Parses the text of a preset. Its values may be invalid: see [`checked`].
+fn write_preset(path: &Path, text: &str) -> Result<(), SaveError> {
+    let failed = |message: String| SaveError { path: path.to_owned(), message };
+    check_length(text).and_then(|()| write_atomically(path, text.as_bytes())).map_err(failed)
+}
+
+/// Whether a text can be read again.
+fn check_length(text: &str) -> Result<(), String> {
+    if text.len() as u64 <= MAX_FILE_BYTES {
+        return Ok(());
+    }
+    let most = MAX_FILE_BYTES >> 20;
+    Err(format!("the preset would be longer than {most} MiB and was not saved; bake edits into a picture"))
+}
+
+/// Parses the text of a preset that lists its edits. Its values may be invalid: see [`checked`].
 pub(super) fn parsed(file: &str, text: &str) -> Result<Planet, LoadError> {
+    beside::parsed(file, text, &mut beside::nowhere).map(|(planet, _)| planet)
+}
+
+/// As [`parsed`], of a text that is known to list its edits.
+pub(super) fn parsed_alone(file: &str, text: &str) -> Result<Planet, LoadError> {
     let mut planet = read_as::<Planet>(file, text, migrate::read)?;
     planet.biomes.forget_idle_keys();
     Ok(planet)
@@ -159,8 +220,7 @@ pub(crate) fn read_as<R: Root>(
 
 /// Checks a planet that was parsed from a text.
 pub(super) fn checked(file: &str, text: &str, planet: &Planet) -> Result<(), LoadError> {
-    let problems = validate::problems(planet);
-    if problems.is_empty() { Ok(()) } else { Err(all_placed(file, without_mark(text), problems)) }
+    beside::checked(file, text, planet, None)
 }
 
 /// The text of a file that should be a preset.

@@ -8,7 +8,8 @@
 //! - [`diff`]: which parameters two planets differ in
 //! - [`key`]: content keys
 //! - [`validate`]: ranges, references between names, the shape of the biome table
-//! - [`mod@file`]: loading and saving; `open` opens files, `text` writes a preset, `explain` parses one and explains
+//! - [`mod@file`]: loading and saving; `open` opens files, `beside` keeps long lists of edits in
+//!   a file of their own, `text` writes a preset, `explain` parses one and explains
 //!   errors, `locate` finds lines and columns, `migrate` reads old versions; [`snippet`] reads and writes single parts
 //! - `giant`: gas giants, and giants to start from
 //! - `rings`: rings of a planet, and rings to start from
@@ -24,6 +25,7 @@
 //! - [`random`]: random planets that are always valid
 
 mod airs;
+mod beside;
 pub mod biome;
 mod day;
 pub mod diff;

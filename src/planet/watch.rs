@@ -1,12 +1,12 @@
 //! Hot reload: a preset that changes on disk while a game runs.
 
 use super::picture::PictureKey;
-use super::{LoadError, Planet};
+use super::{LoadError, Planet, beside};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Watches the file of a preset and the pictures that it refers to.
+/// Watches the file of a preset, and the pictures and the edits file that it refers to.
 ///
 /// It looks at dates and lengths when it is asked, needs no thread, and works on network drives. A game asks in every
 /// frame and gives the planet to its [`Builder`](crate::tiles::Builder), which rebuilds what the change touches.
@@ -39,9 +39,9 @@ impl PresetWatch {
     /// The same with another time between two looks at the disk.
     pub fn every(path: impl AsRef<Path>, interval: Duration) -> Self {
         let path = path.as_ref().to_owned();
-        // The pictures of a preset that cannot be read yet are known once it can.
+        // The files of a preset that cannot be read yet are known once it can.
         let pictures = Planet::open(&path).map(|planet| pictures(&planet)).unwrap_or_default();
-        let files = FileWatch::new(pictures.into_iter().chain([path.clone()]), interval);
+        let files = FileWatch::new(files_of(&path, pictures), interval);
         Self { path, files }
     }
 
@@ -59,9 +59,9 @@ impl PresetWatch {
             Ok(planet) => log::info!("{}: loaded again: {}", self.path.display(), planet.name),
             Err(error) => log::warn!("{error}"),
         }
-        // The preset may refer to other pictures now.
+        // The preset may refer to other files now.
         if let Ok(planet) = &planet {
-            self.files.follow(pictures(planet).into_iter().chain([self.path.clone()]));
+            self.files.follow(files_of(&self.path, pictures(planet)));
         }
         Some(planet)
     }
@@ -127,6 +127,11 @@ impl FileWatch {
 pub(crate) fn pictures(planet: &Planet) -> Vec<PathBuf> {
     let keys = planet.pictures().filter_map(|(_, file, extent)| file.key(extent));
     keys.map(|PictureKey { file, .. }| file).collect()
+}
+
+/// A preset, its pictures, and the file of its edits if it has one.
+fn files_of(preset: &Path, pictures: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
+    pictures.into_iter().chain([preset.to_owned()]).chain(beside::of_preset(preset))
 }
 
 fn look(files: impl IntoIterator<Item = PathBuf>) -> Files {

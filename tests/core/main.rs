@@ -5,7 +5,7 @@
 //! - `idle`: parameters without effect
 //! - `header`: the C header
 //! - `fuzz`: changed files of strangers
-//! - `saving`: saves that are killed
+//! - `saving`: saves that are killed; `beside`: edits in a file beside the preset
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
@@ -17,6 +17,7 @@
 
 mod allocations;
 mod atmosphere;
+mod beside;
 mod erosion;
 mod extremes;
 mod fuzz;

@@ -10,15 +10,23 @@ use tellus::planet::{Planet, random};
 const SAVES_TO: &str = "TELLUS_TEST_SAVES_TO";
 const KILLS: u64 = 200;
 
+/// Of planets whose edits are in a file beside the preset.
+const KILLS_WITH_EDITS: u64 = 40;
+
 fn planets() -> [Planet; 2] {
     [random::random(1), random::random(2)]
+}
+
+fn sculpted() -> [Planet; 2] {
+    [100.0, 200.0].map(|amount_m| crate::beside::sculpted(1200, amount_m))
 }
 
 /// What the killed program does; without the variable it is no test.
 #[test]
 fn saves_until_it_is_killed() {
     let Some(path) = std::env::var_os(SAVES_TO) else { return };
-    let planets = planets();
+    let is_sculpted = Path::new(&path).ends_with("sculpted.ron");
+    let planets = if is_sculpted { sculpted() } else { planets() };
     let begun = Instant::now();
     while begun.elapsed() < Duration::from_secs(20) {
         planets.iter().for_each(|planet| planet.save(&path).unwrap());
@@ -56,6 +64,23 @@ fn a_killed_save_leaves_the_old_file_or_the_new_one() {
         Planet::default().save(&path).unwrap();
     }
     assert!(seen[0] > 20 && seen[1] > 20, "{seen:?}: the moments are not random");
+}
+
+#[test]
+fn a_killed_save_leaves_a_preset_with_its_own_edits() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("sculpted.ron");
+    let planets = sculpted();
+    let mut seen = [0; 2];
+    for number in 0..KILLS_WITH_EDITS {
+        // The next round begins with a file that neither save wrote.
+        Planet::default().save(&path).unwrap();
+        save_and_kill(&path, Duration::from_micros(number * 7919 % 150_000));
+        let found = Planet::load(&path).unwrap_or_else(|error| panic!("kill {number}: {error}"));
+        let which = planets.iter().position(|planet| *planet == found);
+        seen[which.unwrap_or_else(|| panic!("kill {number}: neither planet"))] += 1;
+    }
+    assert!(seen.iter().all(|seen| *seen > 3), "{seen:?}: the moments are not random");
 }
 
 #[test]

@@ -5,7 +5,6 @@
 
 use crate::planet::Planet;
 use crate::planet::file::{self, MAX_FILE_BYTES};
-use crate::planet::picture::folder_of;
 use eframe::egui;
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
 use std::ffi::OsStr;
@@ -55,9 +54,8 @@ impl TheirFile {
         let Ok(text) = std::str::from_utf8(&bytes) else {
             return Self { bytes, planet: Err("the text is not UTF-8; save it as UTF-8".to_owned()) };
         };
-        let planet = match Planet::from_text(&path.display().to_string(), text) {
+        let planet = match Planet::from_text_of(path, text) {
             Ok(mut planet) => {
-                planet.set_folder(&folder_of(path));
                 ours.clone().each_picture(|_, file, extent| {
                     if let (Some(key), Some(picture)) = (file.key(extent), file.picture(extent)) {
                         planet.give_picture(&key, picture);

@@ -53,8 +53,7 @@ pub fn first_document(path: &Path) -> Result<Document, LoadError> {
 /// Reads a document without its height maps: they are read in the background.
 fn read(path: &Path) -> Result<Document, LoadError> {
     let text = read_text(path)?;
-    let mut planet = Planet::from_text(&path.display().to_string(), &text)?;
-    planet.set_folder(&folder_of(path));
+    let planet = Planet::from_text_of(path, &text)?;
     Ok(Document::opened(planet, path.to_owned(), text))
 }
 

@@ -61,10 +61,10 @@ pub fn write(state: &mut State, ctx: &egui::Context, path: PathBuf) {
         state.questions.after_save = None;
         return;
     }
-    match planet.save(&path) {
-        Ok(()) => {
+    match planet.save_text(&path) {
+        Ok(text) => {
             state.notices.say(format!("Saved to {}", path.display()));
-            state.document.mark_saved(&planet, path);
+            state.document.mark_saved(&planet, path, text);
             state.open_file.settle();
             if let Some(goal) = state.questions.after_save.take() {
                 opening::pursue(state, ctx, goal);

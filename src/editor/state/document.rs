@@ -219,16 +219,15 @@ impl Document {
         }
     }
 
-    /// Notes that the file at `path` holds `planet`. Paths of pictures are relative to its folder from now on.
-    pub fn mark_saved(&mut self, planet: &Planet, path: PathBuf) {
+    /// Notes that the file at `path` holds `planet` as `text`. Paths of pictures are relative to its folder from now on.
+    pub fn mark_saved(&mut self, planet: &Planet, path: PathBuf, text: String) {
         let folder = folder_of(&path);
         let saved = Arc::new(planet.moved_to(&folder));
         for kept in [&mut self.planet, &mut self.valid] {
             *kept = if **kept == *saved { saved.clone() } else { Arc::new(kept.moved_to(&folder)) };
         }
-        let bytes = saved.to_text().into_bytes();
         self.home = Home { path: Some(path), ..Home::default() };
-        self.note_saved(Some(saved), Some(bytes));
+        self.note_saved(Some(saved), Some(text.into_bytes()));
     }
 
     /// The name of the file or of the planet, with a mark when there is unsaved work.
@@ -271,7 +270,7 @@ mod tests {
         document.undo();
         assert!(!document.is_dirty(), "undoing everything leaves nothing to save");
         document.redo();
-        document.mark_saved(&document.planet().clone(), PathBuf::from("a.ron"));
+        document.mark_saved(&document.planet().clone(), PathBuf::from("a.ron"), document.planet().to_text());
         assert_eq!(document.title(), "a.ron");
         document.undo();
         assert!(document.is_dirty(), "the file holds the later planet");
@@ -280,7 +279,7 @@ mod tests {
     #[test]
     fn a_roll_is_a_step_and_undo_brings_the_file_back() {
         let mut document = Document::new(Planet::default(), None);
-        document.mark_saved(&Planet::default(), PathBuf::from("a.ron"));
+        document.mark_saved(&Planet::default(), PathBuf::from("a.ron"), Planet::default().to_text());
         document.roll(Planet { seed: 5, ..Planet::default() }, "Random planet");
         assert_eq!((document.path(), document.is_dirty()), (None, true));
         assert_eq!(document.history().undo_label(), Some("Random planet"));
@@ -296,7 +295,7 @@ mod tests {
     #[test]
     fn a_jump_goes_through_the_steps_and_their_files() {
         let mut document = Document::new(seeded(0), None);
-        document.mark_saved(&seeded(0), PathBuf::from("a.ron"));
+        document.mark_saved(&seeded(0), PathBuf::from("a.ron"), seeded(0).to_text());
         for seed in 1..4 {
             document.edit(seeded(seed), None);
             document.settle();
@@ -318,7 +317,7 @@ mod tests {
     #[test]
     fn changes_that_were_rolled_over_are_known() {
         let mut document = Document::new(Planet::default(), None);
-        document.mark_saved(&Planet::default(), PathBuf::from("a.ron"));
+        document.mark_saved(&Planet::default(), PathBuf::from("a.ron"), Planet::default().to_text());
         document.roll(seeded(5), "Random planet");
         document.roll(seeded(6), "Random planet");
         assert!(document.rolled_over().is_empty(), "a roll is nobody's work");
@@ -360,7 +359,7 @@ mod tests {
         let path = PathBuf::from("a.ron");
         let mut document = Document::opened(seeded(1), path.clone(), seeded(1).to_text());
         document.roll(seeded(5), "Random planet");
-        document.mark_saved(&seeded(5), std::path::absolute(&path).unwrap());
+        document.mark_saved(&seeded(5), std::path::absolute(&path).unwrap(), seeded(5).to_text());
         document.undo();
         assert_eq!((document.path(), document.planet().seed), (Some(path.as_path()), 1));
         assert!(document.is_dirty(), "the file holds the random planet");

@@ -215,7 +215,7 @@ fn writer(
             remove(&files_of(&file));
         }
         match planet {
-            Some(planet) => planet.save(&file).map_err(|error| error.to_string())?,
+            Some(planet) => planet.save_in_one(&file).map_err(|error| error.to_string())?,
             None => remove(&file),
         }
         match system {
