@@ -7,7 +7,7 @@
 
 use super::Terrain;
 use super::climate::{ClimateInputs, MapClimate};
-use super::edits::{self, Edits, Painted};
+use super::edits::{self, Begun, Edits, Painted, Span};
 use super::field::Field;
 use super::height::{self, Batch, Heights, LayerFields};
 use super::landform;
@@ -64,6 +64,8 @@ const STACK_BYTES: usize = 2 << 20;
 thread_local! {
     /// How many of them are on the stack of this thread.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
+    /// Scratches of those that are done.
+    static SPARE: RefCell<Vec<Box<BatchScratch>>> = const { RefCell::new(Vec::new()) };
 }
 
 /// One of them, for as long as it is on the stack; holds how many were there before it.
@@ -102,7 +104,7 @@ impl Terrain {
         let batch = Batch { stack: &self.stack, simd: self.simd, points, spacings_rad };
         batch.join(inputs, &mut scratch.layers, heights, each);
         if let Some(edits) = &self.edits {
-            self.apply_edits(edits, &points.dirs, spacings_rad, heights, &mut scratch.edits, None);
+            self.apply_edits(edits, &points.dirs, spacings_rad, heights, &mut scratch.edits, Span::default());
         }
         if let Some(relief) = &self.relief {
             let near = &mut scratch.edits;
@@ -111,7 +113,7 @@ impl Terrain {
         }
     }
 
-    /// Changes heights by the edits, or by those before the one in a slot.
+    /// Changes heights by a span of edits.
     fn apply_edits(
         &self,
         edits: &Edits,
@@ -119,19 +121,21 @@ impl Terrain {
         spacings_rad: &[f64],
         heights: &mut Heights,
         near: &mut edits::Near,
-        before: Option<u32>,
+        span: Span,
     ) {
-        let ground_before = |slot: u32, dirs: &[DVec3]| self.ground_before(edits, slot, dirs);
+        let ground_before =
+            |slot: u32, dirs: &[DVec3], from: Option<Begun>| self.ground_before(edits, slot, dirs, from);
         let ground = edits::Ground { before: &ground_before, memory: &self.memory };
-        edits.apply(dirs, spacings_rad, heights, self.stack.limits_m(), near, (&ground, before));
+        edits.apply(dirs, spacings_rad, heights, self.stack.limits_m(), near, (&ground, span));
     }
 
     /// Heights at points as the layers and the edits before the one in a slot make them. Edits that read the ground may
     /// lie over one another by the hundred, and each asks for the ground before it: every few of them get a stack of
     /// their own.
-    fn ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3]) -> Vec<f64> {
+    fn ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3], from: Option<Begun>) -> Vec<f64> {
         let deeper = Deeper::new();
-        let find = || self.find_ground_before(edits, slot, dirs);
+        let from = from.as_ref();
+        let find = || self.find_ground_before(edits, slot, dirs, from);
         if deeper.0 < MOST_DEEP {
             find()
         } else {
@@ -143,21 +147,32 @@ impl Terrain {
         }
     }
 
-    fn find_ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3]) -> Vec<f64> {
+    fn find_ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3], from: Option<&Begun>) -> Vec<f64> {
         // The scratch of the thread is in use. It is too large for a stack as deep as edits lie over one another.
-        let mut scratch = new_scratch();
+        let mut scratch = SPARE.with_borrow_mut(Vec::pop).unwrap_or_else(new_scratch);
         let mut heights_m = Vec::with_capacity(dirs.len());
-        for dirs in dirs.chunks(CHUNK) {
+        let span = Span { from: from.map(|from| from.slot), before: Some(slot) };
+        for (number, dirs) in dirs.chunks(CHUNK).enumerate() {
             let BatchScratch { points, noise, join, heights } = &mut *scratch;
-            points.refill(dirs.iter().copied(), 0.0);
-            noise.restart(self);
-            let points = &*points;
-            let mut inputs = Evaluated { terrain: self, points, spacings_rad: &[], noise };
-            let batch = Batch { stack: &self.stack, simd: self.simd, points, spacings_rad: &[] };
-            batch.join(&mut inputs, &mut join.layers, heights, |_, _| {});
-            self.apply_edits(edits, dirs, &[], heights, &mut join.edits, Some(slot));
+            if let Some(begun_m) = from.and_then(|from| from.heights_m.get(number * CHUNK..)) {
+                heights.height_m.clear();
+                heights.height_m.extend_from_slice(&begun_m[..dirs.len().min(begun_m.len())]);
+            } else {
+                points.refill(dirs.iter().copied(), 0.0);
+                noise.restart(self);
+                let points = &*points;
+                let mut inputs = Evaluated { terrain: self, points, spacings_rad: &[], noise };
+                let batch = Batch { stack: &self.stack, simd: self.simd, points, spacings_rad: &[] };
+                batch.join(&mut inputs, &mut join.layers, heights, |_, _| {});
+            }
+            self.apply_edits(edits, dirs, &[], heights, &mut join.edits, span);
             heights_m.extend_from_slice(&heights.height_m);
         }
+        SPARE.with_borrow_mut(|spare| {
+            if spare.len() < MOST_DEEP {
+                spare.push(scratch);
+            }
+        });
         heights_m
     }
 

@@ -1,10 +1,10 @@
 //! One edit, compiled: its tool, its line, and the pieces of that line.
 
+use super::context::Context;
 use super::gullies::{Carved, Gullies};
 use super::index::{Hash, Piece, chord_of};
 use super::limits::Limits;
 use super::mask::{EditMask, ShareAt};
-use super::memory::LatticeKey;
 use super::nearest::Nearest;
 use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
@@ -59,10 +59,10 @@ pub(super) struct CompiledEdit {
     pub(super) mask: Option<EditMask>,
     /// What it does to the bounds of heights. Conservative.
     pub(super) range: Widening,
-    /// Hash of what the edit depends on besides its own numbers; part of the hashes of its pieces.
-    context: u128,
+    /// What it depends on besides its own numbers.
+    pub(super) context: Context,
     /// Hash of its numbers without its line.
-    own: u128,
+    pub(super) own: u128,
 }
 
 /// Of a road at a point: sums over near arcs of weight and of weight times height, each with its gradient.
@@ -187,7 +187,7 @@ impl CompiledEdit {
             limits: Limits::new(edit, sea_m),
             mask: edit.limiting_mask().filter(|_| !edit.is_scattered()).map(|name| EditMask::new(name, edit)),
             range: tool.range(heights_m).then(Widening::by(ROUNDING_M, ROUNDING_M)),
-            context: 0,
+            context: Context::default(),
             own: 0,
             tool,
             arcs,
@@ -255,24 +255,6 @@ impl CompiledEdit {
             (begin..begin + image).step_by(size).map(move |first| (first, (first + size).min(begin + image)))
         });
         (common.0, firsts.map(|(first, end)| piece((first, &self.arcs[first..end]))).collect())
-    }
-
-    /// The edit with another context, which is part of the content of its pieces. None if that is its context already.
-    pub(super) fn in_context(&self, context: u128) -> Option<Self> {
-        if context == self.context {
-            return None;
-        }
-        let mut next = Self { context, ..self.clone() };
-        next.pieces.iter_mut().for_each(|piece| piece.hash ^= self.context ^ context);
-        Some(next)
-    }
-
-    /// Tells its lattices from those of other edits and of other ground. Points that are added to a line leave it, as
-    /// long as no other edit comes near.
-    pub(super) fn lattice_key(&self) -> LatticeKey {
-        let mut key = Hash(self.own);
-        [self.context as u64, (self.context >> 64) as u64].into_iter().for_each(|word| key.add(word));
-        key.0
     }
 
     /// Whether the edit acts around each of its places alone.

@@ -195,6 +195,11 @@ impl Gullies {
         }
     }
 
+    /// The lattice of the smooth ground that they follow.
+    pub(super) fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
     /// How deep gullies are at most.
     pub(super) fn depth_m(&self) -> f64 {
         self.octaves.iter().map(|octave| octave.depth_m * self.most_steep).sum()
@@ -208,7 +213,12 @@ impl Gullies {
     }
 
     /// Finds the waves around directions, for an edit.
-    pub(super) fn read(&self, of: ReadBy, dirs: impl Iterator<Item = DVec3>, ground: &Ground<'_>) -> Vec<Known<Cell>> {
+    pub(super) fn read(
+        &self,
+        of: ReadBy<'_>,
+        dirs: impl Iterator<Item = DVec3>,
+        ground: &Ground<'_>,
+    ) -> Vec<Known<Cell>> {
         let mut wanted: Vec<Nodes> = self.octaves.iter().map(|_| Nodes::default()).collect();
         for dir in dirs {
             for (octave, wanted) in self.octaves.iter().zip(&mut wanted) {

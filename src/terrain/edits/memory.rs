@@ -70,9 +70,10 @@ impl<V: Copy> Lattices<V> {
     }
 
     /// What is known of nodes of a lattice, and the nodes of which nothing is known.
-    pub(super) fn recall(&self, lattice: LatticeKey, nodes: Nodes) -> (Known<V>, Vec<Node>) {
+    pub(super) fn recall(&self, lattice: LatticeKey, nodes: impl IntoIterator<Item = Node>) -> (Known<V>, Vec<Node>) {
         let part = self.part(lattice);
-        let Some(of_lattice) = part.get(&lattice) else { return (Known::default(), nodes.into_iter().collect()) };
+        let nodes = nodes.into_iter();
+        let Some(of_lattice) = part.get(&lattice) else { return (Known::default(), nodes.collect()) };
         let (mut known, mut missing) = (Known::default(), Vec::new());
         for node in nodes {
             if let Some(value) = of_lattice.get(&node) {

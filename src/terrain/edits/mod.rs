@@ -122,8 +122,23 @@ impl Masked {
 /// The ground before an edit, for those that read it around a point.
 pub(crate) struct Ground<'a> {
     /// Heights as the edits before the one in a slot left them.
-    pub(crate) before: &'a dyn Fn(u32, &[DVec3]) -> Vec<f64>,
+    pub(crate) before: &'a dyn Fn(u32, &[DVec3], Option<Begun>) -> Vec<f64>,
     pub(crate) memory: &'a Memory,
+}
+
+/// The ground before an earlier edit, from which that before a later one is evaluated.
+pub(crate) struct Begun {
+    /// The slot of the earlier edit.
+    pub(crate) slot: u32,
+    /// Heights at the same points.
+    pub(crate) heights_m: Vec<f64>,
+}
+
+/// The edits that act: from the one in a slot on, and before the one in another.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Span {
+    pub(crate) from: Option<u32>,
+    pub(crate) before: Option<u32>,
 }
 
 impl fmt::Debug for Edits {
@@ -273,8 +288,7 @@ impl Edits {
         if is_masked { masks().map_or(key, |masks| Key::of(&(key, masks))) } else { key }
     }
 
-    /// Changes the heights of points, and their gradients for each of the spacings. `before`: only by the edits before
-    /// the one in this slot.
+    /// Changes the heights of points, and their gradients for each of the spacings, by a span of edits.
     pub(crate) fn apply(
         &self,
         dirs: &[DVec3],
@@ -282,13 +296,15 @@ impl Edits {
         heights: &mut Heights,
         limits_m: (f64, f64),
         near: &mut Near,
-        (ground, before): (&Ground<'_>, Option<u32>),
+        (ground, span): (&Ground<'_>, Span),
     ) {
-        let end = before.map_or(u32::MAX, |slot| self.roster.rank_of(slot));
-        let acts = |slot: u32, _: &CompiledEdit| self.roster.rank_of(slot) < end;
+        let rank_of = |slot: u32| self.roster.rank_of(slot);
+        let ranks = span.from.map_or(0, rank_of)..span.before.map_or(u32::MAX, rank_of);
+        let acts = |slot: u32, _: &CompiledEdit| ranks.contains(&rank_of(slot));
         near.each_touch(&self.ground, &self.roster, dirs, acts, |Touch { slot, edit, arcs, hits }| {
             let around = edit.reader.as_ref().map(|reader| {
-                let of = ReadBy { slot, lattice: edit.lattice_key() };
+                let sources = &edit.context.sources;
+                let of = ReadBy { slot, lattice: edit.lattice_key(), sources, roster: &self.roster };
                 (reader, reader.read(of, hits.iter().map(|hit| dirs[hit.point]), ground))
             });
             let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), spacings_rad);
