@@ -3,6 +3,7 @@
 use super::app::{open_file, until};
 use super::*;
 use tellus::editor::files::dialogs::NoDialogs;
+use tellus::planet::{EditPoint, GroundEdit};
 
 #[test]
 fn saved_as_and_opened_again_it_is_the_same_planet() {
@@ -274,4 +275,42 @@ fn a_planet_that_nobody_touched_is_rolled_over_without_a_question() {
     begin_new(&mut harness);
     assert!(harness.query_by_label("Lose your changes?").is_none());
     assert_eq!(harness.state().document().path(), None);
+}
+
+/// Edits beyond a MiB are in a file beside the preset: saved, taken for saved, and opened again.
+#[test]
+fn a_planet_of_many_strokes_is_saved_with_its_edits_beside_it() {
+    let point = |number: usize, step: u32| EditPoint {
+        latitude_deg: -40.0 + 0.05 * number as f64,
+        longitude_deg: 0.3 * f64::from(step),
+        ..EditPoint::default()
+    };
+    let stroke = |number: usize| GroundEdit {
+        name: format!("Stroke {number}"),
+        points: (0..12).map(|step| point(number, step)).collect(),
+        ..GroundEdit::default()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    let many = Planet { edits: (0..1500).map(stroke).collect(), ..Planet::default() };
+    many.save(&path).unwrap();
+    let mut harness = editor(vec![Some(path.clone()), None]);
+    send(&mut harness, Command::Open);
+    assert!(planet(&harness) == many && !harness.state().document().is_dirty());
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    assert!(harness.state().document().is_dirty());
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::S);
+    assert!(!harness.state().document().is_dirty());
+    let saved = std::fs::read_to_string(&path).unwrap();
+    assert!(saved.len() < 100_000 && saved.contains("edits: \"mine.edits-"), "{}", saved.len());
+    assert!(Planet::load(&path).unwrap() == planet(&harness));
+    // The bytes on the disk are known: nobody else has changed them.
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::S);
+    assert!(harness.query_by_label_contains("Another program").is_none());
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), saved);
+    // Another program writes other edits.
+    let fewer = Planet { edits: (0..1400).map(stroke).collect(), ..planet(&harness) };
+    fewer.save(&path).unwrap();
+    until(&mut harness, "the edits are read again", |harness| harness.state().document().planet().edits.len() == 1400);
 }

@@ -29,8 +29,9 @@ const RADIUS_RAD: f64 = 0.008;
 const ALTITUDES: [f64; 3] = [0.035, 0.15, 0.4];
 /// Size of the pictures that strokes are drawn in.
 const PICTURE_PX: [u32; 2] = [640, 360];
-/// Strokes that are added one after the other.
+/// Strokes that are added one after the other, and how often the planet is saved.
 const RUNS: usize = 30;
+const SAVES: usize = 5;
 
 /// The `sculpt` list of the report. `shipped`: a shipped planet, and the name of its preset.
 pub(super) fn measure((file, shipped): (&str, &Arc<Planet>)) -> Result<Value, String> {
@@ -75,6 +76,7 @@ fn measure_on(name: &str, bare: &Planet) -> Result<Value, String> {
     times.sort_by(f64::total_cmp);
     compile_ms.sort_by(f64::total_cmp);
     let picture_ms = to_picture_ms(&many, view);
+    let (save_ms, load_ms) = save_and_load_ms(&many)?;
     Ok(json!({
         "planet": name,
         "strokes": STROKES,
@@ -85,8 +87,28 @@ fn measure_on(name: &str, bare: &Planet) -> Result<Value, String> {
         "stroke_picture_ms": picture_ms.map(|[stroke, _]| stroke),
         "still_picture_ms": picture_ms.map(|[_, still]| still),
         "file_mb": many.to_text().len() as f64 / 1e6,
+        "save_ms": save_ms,
+        "load_ms": load_ms,
         "memory_mb": after_mb.zip(before_mb).map(|(after, before)| after - before),
     }))
+}
+
+/// Milliseconds of saving the planet with one stroke more, and of loading it: medians.
+fn save_and_load_ms(many: &Planet) -> Result<(Option<f64>, Option<f64>), String> {
+    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+    let path = folder.path().join("many.ron");
+    let (mut saves, mut loads) = (Vec::new(), Vec::new());
+    for edited in one_more(many).take(SAVES) {
+        let start = Instant::now();
+        edited.save(&path).map_err(|error| error.to_string())?;
+        saves.push(start.elapsed().as_secs_f64() * 1000.0);
+        let start = Instant::now();
+        Planet::load(&path).map_err(|error| error.to_string())?;
+        loads.push(start.elapsed().as_secs_f64() * 1000.0);
+    }
+    saves.sort_by(f64::total_cmp);
+    loads.sort_by(f64::total_cmp);
+    Ok((median(&saves), median(&loads)))
 }
 
 /// The planet with one stroke more, which grows as one does under the hand.

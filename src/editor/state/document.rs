@@ -219,7 +219,8 @@ impl Document {
         }
     }
 
-    /// Notes that the file at `path` holds `planet` as `text`. Paths of pictures are relative to its folder from now on.
+    /// Notes that the file at `path` holds `planet` as `text`. From now on, paths of pictures are relative to its
+    /// folder.
     pub fn mark_saved(&mut self, planet: &Planet, path: PathBuf, text: String) {
         let folder = folder_of(&path);
         let saved = Arc::new(planet.moved_to(&folder));

@@ -9,6 +9,7 @@ use super::path::angle_of;
 use super::reading::Reader;
 use super::roster::{Changes, Roster, slot_of};
 use glam::DVec3;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// Most sources of an edit: a node that none of the latest knows is evaluated from the layers on.
@@ -56,7 +57,7 @@ impl CompiledEdit {
     pub(super) fn surrounds(&self, dir: DVec3) -> bool {
         let Some(reach_rad) = self.reader.as_ref().map(Reader::reach_rad) else { return false };
         self.pieces.iter().any(|piece| {
-            let within_rad = (angle_of(piece.chord * piece.chord) + reach_rad) * (1.0 - 1e-9);
+            let within_rad = (radius_rad(piece) + reach_rad) * (1.0 - 1e-9);
             angle_of(piece.middle.distance_squared(dir)) < within_rad
         })
     }
@@ -86,18 +87,7 @@ pub(super) fn refresh(roster: &mut Roster, [ground, masks]: [&Index; 2], changes
         if !is_changed {
             continue;
         }
-        let mut before: Vec<u32> = Vec::new();
-        for piece in &edit.pieces {
-            let disc = Some((piece.middle, piece.chord + chord));
-            let is_near = |number: &u32| roster.piece(*number).is_some_and(|other| overlaps(piece, other, reach_rad));
-            let is_before = |number: &u32| roster.rank_of(slot_of(*number)) < roster.rank_of(slot);
-            ground.each_leaf(disc, &mut |numbers| {
-                before.extend(numbers.iter().copied().filter(|number| is_before(number) && is_near(number)));
-            });
-            masks.each_leaf(disc, &mut |numbers| before.extend(numbers.iter().copied().filter(is_near)));
-        }
-        before.sort_unstable_by_key(|number| roster.rank(*number));
-        before.dedup();
+        let before = near_before(&edit, slot, reach_rad, roster, [ground, masks]);
         let mut context = Hash::default();
         for piece in before.iter().filter_map(|number| roster.piece(*number)) {
             context.add(piece.hash as u64);
@@ -115,6 +105,39 @@ pub(super) fn refresh(roster: &mut Roster, [ground, masks]: [&Index; 2], changes
     refreshed
 }
 
+/// The pieces of edits before an edit, and of masks, that are near it, in order.
+fn near_before(
+    edit: &CompiledEdit,
+    slot: u32,
+    reach_rad: f64,
+    roster: &Roster,
+    [ground, masks]: [&Index; 2],
+) -> Vec<u32> {
+    let is_before = |number: &u32| roster.rank_of(slot_of(*number)) < roster.rank_of(slot);
+    // The pieces of the edit share most leaves, and those most pieces.
+    let (mut leaves, mut listed) = (HashSet::new(), Vec::new());
+    for piece in &edit.pieces {
+        let disc = Some((piece.middle, piece.chord + reach_rad * (1.0 + 1e-9)));
+        ground.each_leaf(disc, &mut |numbers| {
+            if leaves.insert(numbers.as_ptr()) {
+                listed.extend(numbers.iter().copied().filter(is_before));
+            }
+        });
+        masks.each_leaf(disc, &mut |numbers| {
+            if leaves.insert(numbers.as_ptr()) {
+                listed.extend_from_slice(numbers);
+            }
+        });
+    }
+    listed.sort_unstable();
+    listed.dedup();
+    let own: Vec<(DVec3, f64)> =
+        edit.pieces.iter().map(|piece| (piece.middle, radius_rad(piece) + reach_rad)).collect();
+    listed.retain(|number| roster.piece(*number).is_some_and(|other| overlaps(&own, other)));
+    listed.sort_unstable_by_key(|number| roster.rank(*number));
+    listed
+}
+
 /// The sources of an edit among pieces that are near and before it, in order.
 fn sources_of(edit: &CompiledEdit, before: &[u32], roster: &Roster) -> Vec<Source> {
     let Some(lattice) = edit.reader.as_ref().map(Reader::lattice) else { return Vec::new() };
@@ -128,10 +151,13 @@ fn sources_of(edit: &CompiledEdit, before: &[u32], roster: &Roster) -> Vec<Sourc
     slots.into_iter().rev().filter_map(source).take(MOST_SOURCES).collect()
 }
 
-/// Whether the disc of a piece, wider by an angle, overlaps another one. Exact, unlike the test that the index uses:
-/// the cells of the index depend on earlier revisions, and the context must not.
-fn overlaps(piece: &Piece, other: &Piece, reach_rad: f64) -> bool {
-    let radius_rad = |piece: &Piece| angle_of(piece.chord * piece.chord);
-    let apart_rad = angle_of(piece.middle.distance_squared(other.middle));
-    apart_rad <= radius_rad(piece) + radius_rad(other) + reach_rad
+/// Whether a piece overlaps one of some discs. Exact, unlike the test that the index uses: the cells of the index
+/// depend on earlier revisions, and the context must not.
+fn overlaps(discs: &[(DVec3, f64)], piece: &Piece) -> bool {
+    let own_rad = radius_rad(piece);
+    discs.iter().any(|(middle, wide_rad)| angle_of(middle.distance_squared(piece.middle)) <= own_rad + wide_rad)
+}
+
+fn radius_rad(piece: &Piece) -> f64 {
+    angle_of(piece.chord * piece.chord)
 }
