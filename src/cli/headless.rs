@@ -43,8 +43,12 @@ impl Gpu {
             let most = adapter.limits().max_texture_dimension_2d;
             return Err(format!("the GPU ({name}) draws at most {most} by {most} pixels; use a smaller --size"));
         }
-        let descriptor =
-            wgpu::DeviceDescriptor { label: Some("tellus"), required_limits, ..wgpu::DeviceDescriptor::default() };
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("tellus"),
+            required_limits,
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
+            ..wgpu::DeviceDescriptor::default()
+        };
         let (device, queue) =
             adapter.request_device(&descriptor).await.map_err(|error| format!("the GPU ({name}): {error}"))?;
         let error = Arc::new(Mutex::new(None));

@@ -123,6 +123,8 @@ fn wgpu_configuration() -> egui_wgpu::WgpuConfiguration {
                 max_texture_dimension_2d: adapter.limits().max_texture_dimension_2d,
                 ..Renderer::required_limits()
             },
+            // Small blocks: those of a large window are given back with it.
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
         });
     }

@@ -124,7 +124,7 @@ impl Terrain {
         span: Span,
     ) {
         let ground_before =
-            |slot: u32, dirs: &[DVec3], from: Option<Begun>| self.ground_before(edits, slot, dirs, from);
+            |slot: u32, dirs: &[DVec3], from: Option<&Begun>| self.ground_before(edits, slot, dirs, from);
         let ground = edits::Ground { before: &ground_before, memory: &self.memory };
         edits.apply(dirs, spacings_rad, heights, self.stack.limits_m(), near, (&ground, span));
     }
@@ -132,9 +132,8 @@ impl Terrain {
     /// Heights at points as the layers and the edits before the one in a slot make them. Edits that read the ground may
     /// lie over one another by the hundred, and each asks for the ground before it: every few of them get a stack of
     /// their own.
-    fn ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3], from: Option<Begun>) -> Vec<f64> {
+    fn ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3], from: Option<&Begun>) -> Vec<f64> {
         let deeper = Deeper::new();
-        let from = from.as_ref();
         let find = || self.find_ground_before(edits, slot, dirs, from);
         if deeper.0 < MOST_DEEP {
             find()

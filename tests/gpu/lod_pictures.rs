@@ -82,6 +82,38 @@ fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
     }
 }
 
+/// The eye stands 2 m above the foot of a wall, and so a few centimetres beside it.
+#[test]
+fn a_wall_close_beside_the_eye_is_not_cut_away() {
+    let layer = Layer {
+        amplitude_m: 12_000.0,
+        shape: Shape::Fbm(Fbm { wavelength_km: 0.4, octaves: 5, ..Fbm::default() }),
+        ..Layer::default()
+    };
+    let planet = bare(Planet { radius_km: 100.0, layers: vec![layer], ..Planet::default() });
+    let terrain = terrain(&planet);
+    let places =
+        (0..4000).map(|i| LatLon::from_degrees(10.0 + 0.0003 * f64::from(i / 60), 20.0 + 0.0007 * f64::from(i % 60)));
+    let steep = places
+        .map(|place| (place, terrain.sample(place.direction())))
+        .max_by(|a, b| a.1.slope_rad.total_cmp(&b.1.slope_rad));
+    let (place, ground) = steep.unwrap();
+    assert!(ground.slope_rad.to_degrees() > 89.4, "{}", ground.slope_rad.to_degrees());
+    let up = place.direction();
+    let (east, north) = tellus::sphere::geo::east_north(up);
+    let heading = (-ground.normal.dot(east)).atan2(-ground.normal.dot(north));
+    let camera = camera_over(&terrain, place, 2.0, [heading, 0.0]);
+    let view = View { camera, size_px: SIZE_PX, quality: Quality::Low };
+    let surface = build_over(&terrain, &view);
+    let light = lights(&draw(&debug(frame_of(&surface, &planet, view, DVec3::X), DebugView::Coverage)));
+    // Whatever stands there is lower than the sky at its sides and above it.
+    let middle = (0..light.len()).filter(|i| {
+        let [x, y] = [i % SIZE_PX[0] as usize, i / SIZE_PX[0] as usize];
+        x.abs_diff(48) < 8 && y.abs_diff(32) < 8
+    });
+    assert!(middle.into_iter().all(|i| light[i] > 0), "the wall is cut away");
+}
+
 #[test]
 fn no_pose_shows_the_background_through_the_ground() {
     // Other tests look at one pose of every shipped planet.

@@ -119,10 +119,12 @@ impl Masked {
     }
 }
 
+/// Heights at directions as the edits before the one in a slot left them. They may begin where an earlier edit began.
+type Before<'a> = dyn Fn(u32, &[DVec3], Option<&Begun>) -> Vec<f64> + 'a;
+
 /// The ground before an edit, for those that read it around a point.
 pub(crate) struct Ground<'a> {
-    /// Heights as the edits before the one in a slot left them.
-    pub(crate) before: &'a dyn Fn(u32, &[DVec3], Option<Begun>) -> Vec<f64>,
+    pub(crate) before: &'a Before<'a>,
     pub(crate) memory: &'a Memory,
 }
 

@@ -101,7 +101,7 @@ pub(super) fn heights(
     let memory: &Memory = ground.memory;
     let (mut known, mut missing) = memory.heights.recall(of.lattice, nodes);
     // No lock is held: the ground may be read there itself.
-    let mut evaluate = |nodes: Vec<Node>, from: Option<Begun>| {
+    let mut evaluate = |nodes: Vec<Node>, from: Option<&Begun>| {
         let dirs: Vec<DVec3> = nodes.iter().map(|node| lattice.dir(*node)).collect();
         let new: Vec<(Node, f64)> = nodes.into_iter().zip((ground.before)(of.slot, &dirs, from)).collect();
         memory.heights.keep(of.lattice, &new);
@@ -119,7 +119,7 @@ pub(super) fn heights(
         missing.extend(strange.into_iter().map(|(node, _)| node));
         if !begun.is_empty() {
             let (nodes, heights_m): (Vec<Node>, Vec<f64>) = begun.into_iter().unzip();
-            evaluate(nodes, Some(Begun { slot: source.slot, heights_m }));
+            evaluate(nodes, Some(&Begun { slot: source.slot, heights_m }));
         }
     }
     if !missing.is_empty() {
