@@ -93,6 +93,11 @@ pub(super) fn seconds(text: &str) -> Result<f64, String> {
     number(text, -1e9, 1e9)
 }
 
+/// The time for building the ground of a picture.
+pub(super) fn ground_seconds(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 1e6)
+}
+
 /// The length of a trial of a system.
 pub(super) fn years(text: &str) -> Result<f64, String> {
     number(text, 0.0, 1e6)

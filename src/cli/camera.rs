@@ -62,6 +62,9 @@ pub(super) struct CameraArgs {
     /// Quality of the picture
     #[arg(long, value_enum, default_value_t = Quality::High)]
     pub(super) quality: Quality,
+    /// Seconds for building the ground of each picture, which then stays as fine as it is [default: until it is done]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = args::ground_seconds)]
+    pub(super) ground_seconds: Option<f64>,
     /// The shaded planet, or a debug view
     #[arg(long, value_enum, default_value_t = DebugView::default())]
     pub(super) view: DebugView,
@@ -105,6 +108,7 @@ impl CameraArgs {
             photo: self.photo(),
             system: None,
             focuses: false,
+            ground_secs: self.ground_seconds,
         }
     }
 

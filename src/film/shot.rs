@@ -5,11 +5,14 @@ use crate::lod::View;
 use crate::render::{DebugView, Photo, Post, RenderError, Renderer, Scene};
 use crate::sphere::LatLon;
 use crate::terrain::{Revision, Terrain};
-use crate::tiles::{add_detail, build_over};
+use crate::tiles::{Surface, add_detail, add_detail_until, build_over, build_until};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Longest side in pixels of the picture whose ground is drawn: the tiles of a larger one would not fit into memory.
 const GROUND_PX: u32 = 3840;
+/// Share of a limited time for the mesh of the ground; the rest is for its detail textures.
+const MESH_SHARE: f64 = 0.6;
 /// Distance in focus where the middle of the picture is sky, metres.
 const SKY_M: f64 = 1e9;
 
@@ -36,6 +39,8 @@ pub struct Shot {
     pub system: Option<InSystem>,
     /// Whether the lens is in focus where the middle of the picture is, whatever it says itself.
     pub focuses: bool,
+    /// Seconds for building the ground, which then stays as fine as it is. None: until it is done.
+    pub ground_secs: Option<f64>,
 }
 
 impl Shot {
@@ -51,8 +56,7 @@ impl Shot {
     ) -> Result<Option<Vec<[f32; 3]>>, RenderError> {
         // The ground of a large picture is as fine as that of a smaller one.
         let ground_view = View { size_px: fitted(self.view.size_px), ..self.view };
-        let mut surface = build_over(&self.terrain, &ground_view);
-        add_detail(&mut surface, &ground_view);
+        let surface = self.ground(&ground_view);
         let sun = self.sun.unwrap_or_else(|| self.revision.planet().star.place(self.time_secs));
         let mut scene = Scene::of_revision(self.revision.clone(), &surface, self.view, sun.direction());
         let others = self.system.as_ref().map(|system| system.others(&mut scene, self.time_secs)).transpose()?;
@@ -72,6 +76,22 @@ impl Shot {
             lens.focus_m = middle_m.unwrap_or(SKY_M);
         }
         photo.take(renderer, &scene, progress)
+    }
+
+    /// The ground for a view, in the time that there is.
+    fn ground(&self, view: &View) -> Surface {
+        let Some(secs) = self.ground_secs else {
+            let mut surface = build_over(&self.terrain, view);
+            add_detail(&mut surface, view);
+            return surface;
+        };
+        let begun = Instant::now();
+        let after = |share: f64| begun + Duration::from_secs_f64(secs * share);
+        let mut surface = build_until(&self.terrain, view, after(MESH_SHARE));
+        if !add_detail_until(&mut surface, view, after(1.0)) || !surface.complete {
+            log::warn!("the ground is coarser than the picture shows: {secs} s were not enough");
+        }
+        surface
     }
 }
 

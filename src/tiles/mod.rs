@@ -106,24 +106,44 @@ pub fn build_now(planet: &Arc<Planet>, view: &View) -> Result<Surface, InvalidPl
     let (mut stats, fields) = (BuildStats::default(), CellFields::default());
     let terrain = Arc::new(Terrain::try_new_with(planet.clone(), &fields, &mut stats.maps)?);
     stats.octave_samples = fields.take_octave_samples();
-    Ok(built(&terrain, view, stats))
+    Ok(built(&terrain, view, stats, None))
 }
 
 /// The same of a terrain, with the world maps that serve it.
 pub fn build_over(terrain: &Arc<Terrain>, view: &View) -> Surface {
-    built(terrain, view, BuildStats::default())
+    built(terrain, view, BuildStats::default(), None)
 }
 
-fn built(terrain: &Arc<Terrain>, view: &View, stats: BuildStats) -> Surface {
+/// As [`build_over`], as fine as it becomes until a time. The surface has no gaps; whether it is as fine as the view
+/// asks tells [`Surface::complete`]. The coarsest level is built in any case.
+pub fn build_until(terrain: &Arc<Terrain>, view: &View, until: Instant) -> Surface {
+    built(terrain, view, BuildStats::default(), Some(until))
+}
+
+fn built(terrain: &Arc<Terrain>, view: &View, stats: BuildStats, until: Option<Instant>) -> Surface {
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
     cache.serve(terrain);
-    refine::refine(terrain, view, &cache, &mut None, Instant::now(), stats, &|| true)
+    refine::refine(terrain, view, &cache, &mut None, Instant::now(), stats, &|| is_before(until))
 }
 
 /// Computes the horizon angles and detail textures of all tiles that a view shows, and waits for them.
 pub fn add_detail(surface: &mut Surface, view: &View) {
-    horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &|| true, &|| true);
-    find_detail(surface, view, &|_, _| {}, &|| true, &|| true);
+    find_until(surface, view, None);
+}
+
+/// As [`add_detail`], nearest tiles first, until a time. Whether all of them are there.
+pub fn add_detail_until(surface: &mut Surface, view: &View, until: Instant) -> bool {
+    find_until(surface, view, Some(until))
+}
+
+fn find_until(surface: &mut Surface, view: &View, until: Option<Instant>) -> bool {
+    let in_time = || is_before(until);
+    horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &in_time, &in_time);
+    find_detail(surface, view, &|_, _| {}, &in_time, &in_time)
+}
+
+fn is_before(until: Option<Instant>) -> bool {
+    until.is_none_or(|until| Instant::now() < until)
 }
 
 /// Computes the detail textures of the tiles that a view shows, nearest tiles first, while `keep_going` says yes; a

@@ -43,6 +43,7 @@ fn wrong_usage_is_status_2_and_says_what_would_be_right() {
         (vec!["render", LAYERED], "--output <OUT.png|OUT.exr>"),
         (vec!["render", LAYERED, "-o", "x.png", "--size", "0x9"], "each 1 to 32768, such as 1280x720"),
         (vec!["render", LAYERED, "-o", "x.png", "--samples", "40"], "use 1 to 16"),
+        (vec!["render", LAYERED, "-o", "x.png", "--ground-seconds", "-1"], "use 0 to 1000000"),
         (vec!["render", LAYERED, "-o", "x.png", "--white", "500"], "use 2000 to 25000"),
         (vec!["render", LAYERED, "-o", "x.png", "--vignette", "2"], "use 0 to 1"),
         (vec!["render", LAYERED, "-o", "x.png", "--aperture", "1"], "--focus <METRES>"),

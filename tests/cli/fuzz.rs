@@ -213,5 +213,5 @@ fn random_command_lines_end_with_an_answer_or_a_message() {
 #[ignore = "minutes; in `scripts/test long`"]
 fn twenty_thousand_random_command_lines_end_with_an_answer_or_a_message() {
     let ended = run(CASES, LONG_CASES);
-    println!("{LONG_CASES} random command lines; status 0, 1, 2: {ended:?}");
+    println!("counted: {LONG_CASES} random command lines; status 0, 1, 2: {ended:?}");
 }

@@ -227,6 +227,6 @@ fn planets_at_random_ends_have_finite_answers_and_whole_surfaces() {
 fn ten_thousand_planets_at_random_ends() {
     let (seed, secs) = run(PLANETS..PLANETS + LONG_PLANETS);
     println!(
-        "{LONG_PLANETS} planets at random ends, one of {TILES_OF} with tiles; planet {seed} took longest: {secs:.1} s"
+        "counted: {LONG_PLANETS} planets at random ends, one of {TILES_OF} with tiles; planet {seed} took longest: {secs:.1} s"
     );
 }

@@ -6,6 +6,7 @@ use crate::support::layered::layered;
 use glam::{DVec3, Mat4, Vec3};
 use std::collections::HashMap;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 use tellus::lod::chords::chords;
 use tellus::lod::morph::{COARSEST_MORPHING, shifts_m};
 use tellus::lod::range::FULL_AT;
@@ -14,7 +15,7 @@ use tellus::lod::{Camera, Culling, Quality, Selection, Tile, Vertex, View, openi
 use tellus::planet::{Fbm, Layer, Planet, Shape, random, shipped};
 use tellus::sphere::{Edge, LatLon};
 use tellus::terrain::Terrain;
-use tellus::tiles::{Surface, budget_tiles, build_now, lowest_radius_m};
+use tellus::tiles::{Surface, add_detail_until, budget_tiles, build_now, build_over, build_until, lowest_radius_m};
 
 /// A camera 2 m to three radii above the ground, in any direction.
 fn any_view(dice: &mut Dice, terrain: &Terrain, size_px: [u32; 2]) -> View {
@@ -327,6 +328,34 @@ fn a_view_never_shows_more_triangles_than_its_quality_allows() {
 }
 
 /// Walls everywhere: even the greatest LOD bias asks for more tiles than the budget has.
+#[test]
+fn ground_that_runs_out_of_time_is_coarser_and_without_gaps() {
+    let planet = Arc::new(rough());
+    let terrain = Arc::new(Terrain::try_new(planet).unwrap());
+    let place = LatLon::from_degrees(12.0, 40.0);
+    let eye_m = terrain.planet().radius_m() + terrain.height_m(place.direction()) + 100.0;
+    let camera = Camera::over(place, eye_m, 0.4, -0.1, Camera::DEFAULT_FOV_Y_RAD);
+    let view = View { camera, size_px: [160, 90], quality: Quality::Low };
+    let whole = build_over(&terrain, &view);
+    let ids = |surface: &Surface| -> Vec<_> { surface.leaves.iter().map(|leaf| leaf.tile.id).collect() };
+    // Shares of the sphere, in faces of the cube.
+    let covered =
+        |surface: &Surface| surface.leaves.iter().map(|l| 0.25_f64.powi(i32::from(l.tile.id.level))).sum::<f64>();
+    for secs in [0.0, 0.02, 3600.0] {
+        let until = Instant::now() + Duration::from_secs_f64(secs);
+        let mut surface = build_until(&terrain, &view, until);
+        meet(&surface).unwrap();
+        assert_eq!(covered(&surface), 6.0);
+        assert!(surface.leaves.len() <= whole.leaves.len());
+        let has_detail = add_detail_until(&mut surface, &view, until);
+        match secs {
+            0.0 => assert!(!surface.complete && !has_detail && surface.leaves.len() < 100, "{}", surface.leaves.len()),
+            3600.0 => assert!(surface.complete && has_detail && ids(&surface) == ids(&whole)),
+            _ => {}
+        }
+    }
+}
+
 #[test]
 fn ground_rugged_beyond_measure_stays_within_the_budget() {
     let shape = Shape::Fbm(Fbm { wavelength_km: 2.0, octaves: 18, gain: 0.9, ..Fbm::default() });

@@ -18,7 +18,7 @@
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
 //! - `text`: the text of the preset
 //! - `variations`: variations of the planet, and locks
-//! - `monkey`: random commands, all of which can be undone
+//! - `monkey`: random commands, all of which can be undone; `memory`: random events, over which memory levels off
 //! - `photo`: photographs, films, and what a photographer sets
 //! - `viewport`: the camera and the picture; `panes`: several views
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -36,6 +36,8 @@ mod edits;
 mod files;
 mod finder;
 mod finding;
+#[path = "../support/heap.rs"]
+mod heap;
 mod history;
 mod input;
 mod inspector;
@@ -44,6 +46,7 @@ mod layered;
 mod layers;
 mod library;
 mod looks;
+mod memory;
 mod monkey;
 mod painter;
 mod panes;

@@ -9,10 +9,10 @@ use tellus::planet::{random, snippet, validate};
 const PARTS: [&str; 8] = ["star", "layers", "climate", "biomes", "structure", "water", "atmosphere", "clouds"];
 
 /// Random numbers: an xorshift generator (Marsaglia 2003).
-struct Dice(u64);
+pub(super) struct Dice(pub(super) u64);
 
 impl Dice {
-    fn below(&mut self, count: usize) -> usize {
+    pub(super) fn below(&mut self, count: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -21,7 +21,7 @@ impl Dice {
 }
 
 /// One action, whether it makes sense now or not.
-fn action(dice: &mut Dice, planet: &Planet, steps: usize) -> Action {
+pub(super) fn action(dice: &mut Dice, planet: &Planet, steps: usize) -> Action {
     let layer = dice.below(planet.layers.len() + 1);
     let part = PARTS[dice.below(PARTS.len())];
     match dice.below(40) {
@@ -113,4 +113,5 @@ fn whatever_is_sent_can_be_undone() {
 #[ignore = "long"]
 fn five_thousand_commands_can_be_undone() {
     try_everything(0x9e37_79b9, 5000);
+    println!("counted: 5000 commands undone and redone");
 }

@@ -65,6 +65,7 @@ fn sequence(state: &State, subject: Subject, path: &Path) -> Result<Sequence, St
         photo: Photo { samples: photo.samples, lens, ..Photo::default() },
         system: state.viewport.in_system(),
         focuses: photo.focus_m.is_none(),
+        ground_secs: None,
     };
     match subject {
         Subject::Picture => Ok(Sequence::picture(shot, path.to_owned(), kind)),
