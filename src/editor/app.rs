@@ -58,6 +58,8 @@ const SHOWN_KEY: &str = "tellus_layout";
 const LAYOUT_KEY: &str = "tellus_docks";
 /// The key of the panes.
 const PANES_KEY: &str = "tellus_panes";
+/// The key of the memory for tiles.
+const CACHE_KEY: &str = "tellus_cache_mib";
 /// The key of what was used lately in the finder.
 const USED_KEY: &str = "tellus_finder";
 /// The key that is there once the editor has run: the tour begins by itself where it is not.
@@ -110,6 +112,7 @@ impl EditorApp {
         state.shows.panel = stored(SHOWN_KEY).as_deref() != Some("hidden");
         state.shows.tour = cc.storage.is_some() && stored(TOURED_KEY).is_none() && path.is_none();
         let layout = stored(LAYOUT_KEY).and_then(|text| Layout::from_text(&text)).unwrap_or_default();
+        state.viewport.settings.restore_cache(stored(CACHE_KEY).as_deref());
         state.viewport.restore_panes(&stored(PANES_KEY).unwrap_or_default());
         state.adapter = cc.wgpu_render_state.as_ref().map_or_else(String::new, |state| {
             let info = state.adapter.get_info();
@@ -488,6 +491,7 @@ impl eframe::App for EditorApp {
         storage.set_string(TOURED_KEY, "yes".to_owned());
         storage.set_string(LAYOUT_KEY, self.panels.layout.to_text());
         storage.set_string(USED_KEY, self.finder.used());
+        storage.set_string(CACHE_KEY, self.state.viewport.settings.cache_mib.to_string());
         storage.set_string(PANES_KEY, self.state.viewport.panes_text());
     }
 }

@@ -9,6 +9,7 @@ use super::handlers::{
 };
 use super::state::State;
 use super::state::questions::Goal;
+use super::viewport::settings::CACHE_MIB;
 use super::widgets::number::{format_number, suffix};
 use crate::planet::param::{ParamPath, ValueMut};
 use eframe::egui;
@@ -142,6 +143,7 @@ fn set(state: &mut State, setting: Setting) {
         Setting::Bloom(bloom) => settings.post.bloom = bloom,
         Setting::AutoExposure(automatic) => settings.auto_exposure = automatic,
         Setting::Refine(refine) => settings.refine = refine,
+        Setting::CacheMib(mib) => settings.cache_mib = mib.clamp(*CACHE_MIB.start(), *CACHE_MIB.end()),
         Setting::TimeSecs(time_secs) => settings.time_secs = time_secs,
         Setting::TimeSpeed(time_speed) => settings.time_speed = time_speed,
     }

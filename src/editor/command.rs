@@ -239,6 +239,8 @@ pub enum Setting {
     TimeSecs(f64),
     /// Seconds of the planet for each second of the clock.
     TimeSpeed(f64),
+    /// Memory for tiles that are kept, MiB.
+    CacheMib(u32),
 }
 
 /// An action on the variations of the planet.

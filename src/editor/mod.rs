@@ -87,12 +87,7 @@ pub fn folder() -> Option<PathBuf> {
 fn restarts(path: Option<PathBuf>) -> impl FnMut() -> Result<(), String> {
     let started = Instant::now();
     move || {
-        // A device that is lost again and again would start editors for ever.
-        if std::env::var_os(RESTARTED).is_some() && started.elapsed() < Duration::from_secs(60) {
-            return Err("It was lost again right after a restart. Update its driver, or choose another adapter with \
-                        WGPU_ADAPTER_NAME. Unsaved work is offered at the next start."
-                .to_owned());
-        }
+        may_restart(std::env::var_os(RESTARTED).is_some(), started.elapsed())?;
         let program = std::env::current_exe().map_err(|error| error.to_string())?;
         let mut command = std::process::Command::new(program);
         command.args(&path).env(RESTARTED, "1").spawn().map_err(|error| error.to_string())?;
@@ -131,6 +126,20 @@ fn wgpu_configuration() -> egui_wgpu::WgpuConfiguration {
     configuration
 }
 
+/// Time after a restart within which a lost device starts no further editor.
+const SOON: Duration = Duration::from_secs(60);
+
+/// Whether an editor whose device was lost may start another one: a device that is lost again and again would start
+/// editors for ever.
+fn may_restart(follows_loss: bool, ran: Duration) -> Result<(), String> {
+    if follows_loss && ran < SOON {
+        return Err("It was lost again right after a restart. Update its driver, or choose another adapter with \
+                    WGPU_ADAPTER_NAME. Unsaved work is offered at the next start."
+            .to_owned());
+    }
+    Ok(())
+}
+
 fn explain(error: &eframe::Error) -> String {
     match error {
         eframe::Error::Wgpu(error) => format!(
@@ -139,5 +148,18 @@ fn explain(error: &eframe::Error) -> String {
              on Debian and Ubuntu it is the package mesa-vulkan-drivers."
         ),
         other => format!("the window could not be opened: {other}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_device_that_is_lost_again_and_again_starts_one_editor() {
+        let secs = Duration::from_secs;
+        assert!(may_restart(false, secs(0)).is_ok(), "the first loss");
+        assert!(may_restart(true, secs(5)).unwrap_err().contains("lost again"));
+        assert!(may_restart(true, secs(3600)).is_ok(), "another loss, an hour later");
     }
 }

@@ -329,6 +329,27 @@ fn the_time_from_an_edit_to_its_picture_is_measured() {
 }
 
 #[test]
+fn memory_for_tiles_is_set_and_kept() {
+    let mut harness = editor(vec![]);
+    app::until(&mut harness, "tiles", |harness| harness.state().viewport().surface().is_some());
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F8);
+    let budget = |harness: &Editor| harness.state().viewport().memory().budget_bytes >> 20;
+    assert_eq!(budget(&harness), 256);
+    slide(&mut harness, "Memory for tiles", 512.0);
+    assert_eq!(harness.state().viewport().settings.cache_mib, 512);
+    // The builder tells it with the next tiles.
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    app::until(&mut harness, "the new budget", |harness| budget(harness) == 512);
+    // Of the last run, if it is a number in range.
+    let settings = &mut harness.state_mut().viewport_mut().settings;
+    for (kept, mib) in [(Some("1024"), 1024), (Some("1"), 1024), (Some("many"), 1024), (None, 1024), (Some("64"), 64)] {
+        settings.restore_cache(kept);
+        assert_eq!(settings.cache_mib, mib, "{kept:?}");
+    }
+}
+
+#[test]
 fn the_performance_panel_tells_where_an_edit_went() {
     let mut harness = drawn_editor();
     wait_for_picture(&mut harness);

@@ -150,8 +150,10 @@ pub fn show(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     }
     rest(ui, draft, "sculpt", |ui, draft| {
         if !draft.shown.filter.is_active() {
-            brush(ui, state, draft);
-            ui.separator();
+            if state.in_hand {
+                brush(ui, state, draft);
+                ui.separator();
+            }
             edit_list::show(ui, state, draft);
         }
         selected(ui, state, draft);
@@ -198,9 +200,6 @@ fn tools(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
 
 /// The parameters of the brush.
 fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
-    if !state.in_hand {
-        return;
-    }
     let sea_m = draft.planet.sea_level_m();
     let tool = state.tool;
     let brush = state.brush(draft.planet);

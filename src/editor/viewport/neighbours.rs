@@ -8,15 +8,13 @@ use crate::lod::View;
 use crate::planet::Planet;
 use crate::render::{BodyId, Neighbour, Projection, Scene, Worlds};
 use crate::terrain::MapStore;
-use crate::tiles::{Builder, BuilderOptions, DEFAULT_BUDGET_BYTES};
+use crate::tiles::{Builder, BuilderOptions};
 use eframe::egui;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Memory for the tiles of all bodies, for those of the planet at least, and for those of a neighbour at least.
-const BUDGET_BYTES: usize = DEFAULT_BUDGET_BYTES;
-const LEAST_OWN_BYTES: usize = BUDGET_BYTES / 2;
+/// Memory for the tiles of a neighbour at least. The planet has at least half of all.
 const LEAST_BYTES: usize = 8 << 20;
 /// Apparent radius from which a neighbour takes as much memory as may be.
 const WIDE_RAD: f64 = 0.5;
@@ -53,8 +51,12 @@ impl Viewport {
 
     /// The bodies around the planet as a view sees them; None if it is alone.
     pub(super) fn sky(&mut self, view: &View) -> Option<Sky> {
-        let time_secs = self.settings.time_secs;
-        self.neighbours.as_mut().map(|neighbours| neighbours.sky(&self.builder, view, time_secs, &self.ctx))
+        let (time_secs, bytes) = (self.settings.time_secs, self.settings.cache_bytes());
+        let Some(neighbours) = &mut self.neighbours else {
+            self.builder.set_budget_bytes(bytes);
+            return None;
+        };
+        Some(neighbours.sky((&self.builder, bytes), view, time_secs, &self.ctx))
     }
 
     /// The planet's place in its system; None if it is alone.
@@ -79,7 +81,6 @@ impl Viewport {
         match (&mut self.neighbours, system) {
             (Some(neighbours), Some((worlds, body))) => neighbours.set(worlds, body),
             (_, system) => {
-                self.builder.set_budget_bytes(BUDGET_BYTES);
                 self.neighbours = system.map(|(worlds, body)| Neighbours::new(worlds, body, self.maps.clone()));
             }
         }
@@ -168,14 +169,21 @@ impl Neighbours {
     }
 
     /// The bodies as a view sees them at a time. Those whose first tiles are still built are points of light. The
-    /// memory of `own`, the builder of the planet, and of the others follows from how large they look.
-    pub(super) fn sky(&mut self, own: &Builder, view: &View, time_secs: f64, ctx: &egui::Context) -> Sky {
+    /// memory of `own`, the builder of the planet, and of the others follows from how large they look; `all_bytes` is
+    /// that of all.
+    pub(super) fn sky(
+        &mut self,
+        (own, all_bytes): (&Builder, usize),
+        view: &View,
+        time_secs: f64,
+        ctx: &egui::Context,
+    ) -> Sky {
         let worlds = self.worlds.clone();
         let around = worlds.around(self.body, view.camera.position_planet_m, time_secs);
         let projection = Projection::symmetric(view.camera.fov_y_rad, view.aspect());
         let drawn = around.with_surface(&projection, view.size_px);
         let scene = Scene::new(view.camera.planet_from_view, projection, view.size_px, view.quality);
-        let (mut bodies, mut left_bytes) = (Vec::new(), BUDGET_BYTES - LEAST_OWN_BYTES);
+        let (mut bodies, mut left_bytes) = (Vec::new(), all_bytes / 2);
         let mut shown = vec![self.body];
         for number in drawn.iter().copied().filter(|number| *number != self.body) {
             let Some(planet) = worlds.planet(number).cloned() else { continue };
@@ -196,7 +204,7 @@ impl Neighbours {
                 bodies.push(around.neighbour(number, surface));
             }
         }
-        own.set_budget_bytes(LEAST_OWN_BYTES + left_bytes);
+        own.set_budget_bytes(all_bytes - all_bytes / 2 + left_bytes);
         self.builders.retain(|number, _| drawn.contains(number));
         Sky { worlds: self.worlds.clone(), body: self.body, drawn: shown, bodies }
     }

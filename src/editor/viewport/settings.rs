@@ -2,6 +2,11 @@
 
 use crate::lod::Quality;
 use crate::render::{DebugView, Post};
+use crate::tiles::DEFAULT_BUDGET_BYTES;
+use std::ops::RangeInclusive;
+
+/// Memory for tiles that may be set, MiB. Less than the least holds no picture of a rugged planet.
+pub const CACHE_MIB: RangeInclusive<u32> = 64..=8192;
 
 /// Which picture of the planet is drawn, and at which time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +30,8 @@ pub struct ViewSettings {
     pub playing: bool,
     /// Seconds of the planet for each second of the clock.
     pub time_speed: f64,
+    /// Memory for the tiles of the planet and of its neighbours, MiB.
+    pub cache_mib: u32,
 }
 
 impl ViewSettings {
@@ -41,6 +48,18 @@ impl ViewSettings {
             playing: false,
             // Ten minutes of the planet for each second: a day of 24 hours takes 2.4 minutes.
             time_speed: 600.0,
+            cache_mib: (DEFAULT_BUDGET_BYTES >> 20) as u32,
         }
+    }
+
+    /// Takes the memory for tiles of the last run, if that is known and in range.
+    pub fn restore_cache(&mut self, kept: Option<&str>) {
+        let kept = kept.and_then(|text| text.parse().ok()).filter(|mib| CACHE_MIB.contains(mib));
+        self.cache_mib = kept.unwrap_or(self.cache_mib);
+    }
+
+    /// The same in bytes.
+    pub fn cache_bytes(&self) -> usize {
+        (self.cache_mib as usize) << 20
     }
 }

@@ -1,9 +1,10 @@
 //! The performance window: the times of the last edit, the memory of the cache, and the newest frames.
 
 use super::look;
-use crate::editor::command::{Action, Commands, Window};
+use crate::editor::command::{Action, Commands, Setting, Window};
 use crate::editor::state::State;
 use crate::editor::viewport::frames::FrameTime;
+use crate::editor::viewport::settings::CACHE_MIB;
 use crate::editor::viewport::timeline::{Step, Timeline};
 use crate::editor::widgets::number::megabytes;
 use eframe::egui;
@@ -38,7 +39,7 @@ pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
             }
         }
         ui.separator();
-        memory(ui, state);
+        memory(ui, state, commands);
         ui.separator();
         frames(ui, state);
     });
@@ -87,7 +88,7 @@ fn busy_text(step: &Step) -> String {
     format!("{}{times}", ms(step.busy_secs))
 }
 
-fn memory(ui: &mut egui::Ui, state: &State) {
+fn memory(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
     let memory = state.viewport.memory();
     let share = memory.used_bytes as f32 / memory.budget_bytes.max(1) as f32;
     let text = format!("{:.0} of {:.0} MB", megabytes(memory.used_bytes as u64), megabytes(memory.budget_bytes as u64));
@@ -95,6 +96,16 @@ fn memory(ui: &mut egui::Ui, state: &State) {
         ui.label("Cache");
         ui.add(egui::ProgressBar::new(share.min(1.0)).desired_width(BAR_WIDTH).text(text));
         ui.label(format!("{} tiles, {} horizons, {} layer fields", memory.tiles, memory.horizons, memory.fields));
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label("Memory for tiles");
+        let mut mib = state.viewport.settings.cache_mib;
+        let slider = egui::Slider::new(&mut mib, CACHE_MIB).logarithmic(true).suffix(" MiB");
+        let slider = ui.add(slider).labelled_by(label.id);
+        if slider.on_hover_text("More keeps more of where you have been; less leaves more to other programs").changed()
+        {
+            commands.push(Action::Set(Setting::CacheMib(mib)));
+        }
     });
     if let Some(surface) = state.viewport.surface() {
         let horizons = surface.stats.horizons;
