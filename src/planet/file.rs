@@ -159,8 +159,9 @@ impl Planet {
         Ok(preset)
     }
 
-    /// As [`Planet::save`], with all edits in the preset.
-    pub(crate) fn save_in_one(&self, path: &Path) -> Result<(), SaveError> {
+    /// As [`Planet::save`], with all edits in the preset, however many there are.
+    pub fn save_in_one(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
+        let path = path.as_ref();
         write_preset(path, &self.to_save(path)?.to_text())
     }
 

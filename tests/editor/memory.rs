@@ -115,24 +115,22 @@ fn begin_again(harness: &mut Editor) {
     }
 }
 
-fn send_events(count: usize, seed: u64) -> Vec<usize> {
+/// Sends events. `looked` is told how many there were and the heap, after the warm-up.
+fn send_events(count: usize, seed: u64, mut looked: impl FnMut(usize, usize)) {
     let mut harness = editor(vec![]);
     let mut dice = Dice(seed);
-    let mut heaps = Vec::new();
     for number in 1..=count {
         event(&mut harness, &mut dice);
         if number >= WARM_UP && number % BLOCK == 0 {
             begin_again(&mut harness);
-            heaps.push(bytes_in_use());
-            println!("after {number} events: {} KiB of heap", bytes_in_use() >> 10);
+            looked(number, bytes_in_use());
         }
     }
-    heaps
 }
 
 #[test]
 fn random_events_do_not_end_the_editor() {
-    send_events(500, 0x51ed_270b);
+    send_events(500, 0x51ed_270b, |_, _| {});
 }
 
 #[test]
@@ -146,7 +144,11 @@ fn memory_levels_off_over_twenty_thousand_random_events() {
         assert!(ended.success());
         return;
     }
-    let heaps = send_events(EVENTS, 0x2545_f491);
+    let mut heaps = Vec::new();
+    send_events(EVENTS, 0x2545_f491, |number, bytes| {
+        println!("after {number} events: {} KiB of heap", bytes >> 10);
+        heaps.push(bytes);
+    });
     let [least, most] = [heaps.iter().min(), heaps.iter().max()].map(|bytes| *bytes.unwrap() as f64);
     println!("counted: {EVENTS} random events of the editor; its heap after them {:.3} of the least", most / least);
     assert!(most <= least * MOST_GROWTH, "{heaps:?}");
