@@ -5,6 +5,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// The cells of six faces of `side` by `side`, face by face, row by row. The same for every planet.
 pub(crate) struct Cells {
@@ -16,17 +17,40 @@ pub(crate) struct Cells {
     pub(crate) neighbours: Vec<[u32; 8]>,
 }
 
+/// Time after which cells that nobody uses are forgotten.
+const KEPT: Duration = Duration::from_secs(60);
+
+/// Cells that were asked for.
+struct Known {
+    cells: Arc<Cells>,
+    /// When they were asked for last.
+    asked: Instant,
+}
+
+/// Forgets cells that nobody uses and nobody has asked for in a while.
+fn forget(known: &mut BTreeMap<usize, Known>, now: Instant) {
+    known.retain(|_, known| Arc::strong_count(&known.cells) > 1 || now.saturating_duration_since(known.asked) < KEPT);
+}
+
 impl Cells {
-    /// The cells of a side; computed once for each side and shared.
+    /// The cells of a side: shared, and kept until nobody has asked for them for a while. Those of the finest side take
+    /// 350 MB.
     pub(crate) fn of(side: usize) -> Arc<Cells> {
-        static KNOWN: Mutex<BTreeMap<usize, Arc<Cells>>> = Mutex::new(BTreeMap::new());
+        static KNOWN: Mutex<BTreeMap<usize, Known>> = Mutex::new(BTreeMap::new());
         // Computed outside the lock: its thread pool may hand this thread other work that asks for cells.
         let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(cells) = known().get(&side) {
-            return cells.clone();
+        let now = Instant::now();
+        let find = |known: &mut BTreeMap<usize, Known>| {
+            forget(known, now);
+            let found = known.get_mut(&side)?;
+            found.asked = now;
+            Some(found.cells.clone())
+        };
+        if let Some(cells) = find(&mut known()) {
+            return cells;
         }
         let cells = Arc::new(Self::new(side));
-        known().entry(side).or_insert(cells).clone()
+        known().entry(side).or_insert(Known { cells, asked: now }).cells.clone()
     }
 
     /// The eight cells around a cell, as [`Self::neighbours`] lists them. Away from the edges of faces they follow from
@@ -83,4 +107,30 @@ fn beside(cell: usize, side: usize) -> [u32; 8] {
     let (cell, side) = (cell as u32, side as u32);
     let (above, below) = (cell - side, cell + side);
     [above - 1, above, above + 1, cell - 1, cell + 1, below - 1, below, below + 1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_that_nobody_uses_are_forgotten_after_a_while() {
+        let now = Instant::now();
+        let cells = |side| Arc::new(Cells::new(side));
+        let used = cells(2);
+        let mut known: BTreeMap<usize, Known> = [
+            (2, Known { cells: used.clone(), asked: now }),
+            (4, Known { cells: cells(4), asked: now }),
+            (8, Known { cells: cells(8), asked: now + KEPT }),
+        ]
+        .into();
+        let sides = |known: &BTreeMap<usize, Known>| known.keys().copied().collect::<Vec<_>>();
+        forget(&mut known, now);
+        assert_eq!(sides(&known), [2, 4, 8]);
+        forget(&mut known, now + KEPT);
+        assert_eq!(sides(&known), [2, 8]);
+        drop(used);
+        forget(&mut known, now + 2 * KEPT);
+        assert!(known.is_empty());
+    }
 }
