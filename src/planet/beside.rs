@@ -1,7 +1,7 @@
 //! Ground edits in a file beside the preset.
 //!
-//! A preset whose text would be longer than [`MOST_INLINE_BYTES`] names a file of its folder instead of listing its
-//! edits: `edits: "maren.edits-0123456789abcdef.ron"`. That file is a preset that holds edits alone.
+//! A preset whose list of edits would be longer than [`MOST_INLINE_BYTES`] names a file of its folder instead:
+//! `edits: "maren.edits-0123456789abcdef.ron"`. That file is a preset that holds edits alone.
 //!
 //! Its name ends with a hash of its text, so a save never changes an edits file that a preset names: it writes another
 //! one, then replaces the preset, then removes what no preset names any more. A save that is killed leaves the old
@@ -9,14 +9,17 @@
 
 use super::file::{self, LoadError, write_atomically};
 use super::param::ParamPath;
-use super::{Key, Planet, Problem, explain, locate, snippet};
+use super::{Planet, Problem, explain, locate, snippet};
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Longest text of a preset that lists its edits, in bytes: some thousand strokes.
-pub(super) const MOST_INLINE_BYTES: usize = 1 << 20;
+/// Longest list of edits in a preset, in bytes: some thousand strokes.
+const MOST_INLINE_BYTES: usize = 1 << 20;
+/// Fewer edits of fewer points each are a shorter list.
+const FEW_EDITS: usize = 100;
+const FEW_POINTS: usize = 100;
 
 /// What stands between the stem of the preset and the hash, and behind the hash.
 const MIDDLE: &str = ".edits-";
@@ -156,13 +159,13 @@ pub(super) struct Texts {
 
 /// The texts of a planet whose preset has this path.
 pub(super) fn texts(planet: &Planet, preset: &Path) -> Texts {
-    let text = planet.to_text();
+    let in_one = || Texts { preset: planet.to_text(), edits: None };
+    // Edits are written once, not as a part of the whole first.
+    let is_few = planet.edits.len() < FEW_EDITS && planet.edits.iter().all(|edit| edit.points.0.len() < FEW_POINTS);
+    let long = (!is_few).then(|| snippet::of_part(planet, "edits")).flatten();
+    let Some(edits) = long.filter(|text| text.len() > MOST_INLINE_BYTES) else { return in_one() };
     let stem = preset.file_stem().unwrap_or_default().to_string_lossy();
-    if text.len() <= MOST_INLINE_BYTES || planet.edits.is_empty() {
-        return Texts { preset: text, edits: None };
-    }
-    let Some(edits) = snippet::of_part(planet, "edits") else { return Texts { preset: text, edits: None } };
-    let name = format!("{stem}{MIDDLE}{:0DIGITS$x}{END}", Key::of(edits.as_str()).bits() as u64);
+    let name = format!("{stem}{MIDDLE}{:0DIGITS$x}{END}", fnv1a(edits.as_bytes()));
     let mut bare = Planet { edits: Default::default(), ..planet.clone() }.to_text();
     match bare.rfind(')') {
         Some(end) if checked_name(&format!("{name:?}")).is_ok() => {
@@ -170,8 +173,13 @@ pub(super) fn texts(planet: &Planet, preset: &Path) -> Texts {
             bare.insert_str(end, &format!("    {comment}\n    edits: {name:?},\n"));
             Texts { preset: bare, edits: Some((name, edits)) }
         }
-        _ => Texts { preset: text, edits: None },
+        _ => in_one(),
     }
+}
+
+/// FNV-1a (Fowler, Noll, Vo 1991).
+fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// Writes an edits file, unless it is there.

@@ -140,7 +140,7 @@ impl Planet {
     /// Saves atomically: the old file stays until the new one is complete. Paths of pictures are rewritten relative to
     /// the new file. A planet that could not be loaded again is refused.
     ///
-    /// Edits that would make the text longer than a MiB go to a file beside the preset, which names it.
+    /// A list of edits longer than a MiB goes to a file beside the preset, which names it.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
         self.save_text(path.as_ref()).map(drop)
     }
