@@ -108,6 +108,12 @@ const LEAN: f32 = 0.35;
 // Optical depth of shafts over the mean of rain.
 const SHAFT: f32 = 5.0;
 
+// Middle clouds that are heaped are fields of cells: shares of the noise that groups them and of that which makes them.
+const CELL_GROUPS: f32 = 0.55;
+const CELLS: f32 = 0.65;
+// How far the seams between cells fill where the cover is closed, against decks.
+const CELLS_CLOSED: f32 = 0.3;
+
 // Clouds are thin at their borders: their density rises from 0 without a kink. `x`: distance from the border, 0 to 1.
 fn thickened(x: f32) -> f32 { return x * x * (2.0 - x); }
 // The distance from the border by which `thickened` shrinks dense clouds.
@@ -145,7 +151,9 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     var carve = 0.5;
     var cells = 0.0;
     var weight = 0.9;
-    var strength = mix(1.0, 0.45, layered);
+    let is_middle = number == MIDDLE_LAYER;
+    var strength = mix(select(1.0, CELL_GROUPS, is_middle), 0.45, layered);
+    let finer = select(0.42, mix(CELLS / CELL_GROUPS, 0.42, layered), is_middle);
     var blurred = 1.0;
     var afar = 1.0;
     let end = body.cloud_layers[number].end_band;
@@ -165,13 +173,14 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
             weight -= 0.1;
         } else {
             carve += (n.r - 0.5) * share * strength;
-            strength *= 0.42;
+            strength *= finer;
             if i == puff {
                 blurred = 1.0 - share;
                 afar = smoothstep(TONE_LODS.x, TONE_LODS.y, lod);
             }
         }
         position = OCTAVE_TURN * position;
+        if is_middle && i == puff { position = ROWS * position; }
     }
     // The bend has no effect where the cover is 0 or 1.
     let base = saturate1(cover + 4.0 * bend * cover * (1.0 - cover));
@@ -189,7 +198,7 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     // Tops of decks and of small heaps are uneven; the ice of an anvil is thin.
     let under = (1.02 + 0.5 * (carve - 0.5) - risen) / (0.17 + extent / sky.top);
     var envelope = max(saturate1(under + 0.5) / sky.top, 0.45 * anvil);
-    if number == MIDDLE_LAYER {
+    if is_middle {
         let off = 2.0 * height - 1.0;
         narrowed = 0.6 * off * off;
         envelope = 1.0;
@@ -211,7 +220,8 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     // Even overcast cloud varies in thickness. Optical depths are distributed log-normally (Barker, Wielicki, Parker, A
     // parameterization for computing grid-averaged solar fluxes, 1996).
     let bulk = select(exp(SPREAD * (n - 0.5 + bend * cover)), SHAFT, number == RAIN_LAYER);
-    let closed = select(cover * cover * cover, 0.0, number == RAIN_LAYER) + SHRUNK * saturate1(10.0 * cover);
+    let fills = vec4f(1.0, 0.0, 1.0, mix(CELLS_CLOSED, 1.0, layered))[number];
+    let closed = fills * cover * cover * cover + SHRUNK * saturate1(10.0 * cover);
     let sharp = thickened(saturate1((n - 1.0 + cover) / width + closed)) * bulk;
     let column = thickened(saturate1((carve - 1.0 + cover) / width + closed)) * bulk;
     let tone = exp(TONE * afar * (cells + bend));

@@ -74,14 +74,16 @@ const LEAST_DENSITY: f32 = 0.004;
 const BLUR: f32 = 0.45;
 const LOW_BLUR: f32 = 0.25;
 const RAIN_BLUR: f32 = 0.06;
+// Middle clouds are a thin layer of small cells: steps of a ray at a slant are longer than cells are wide.
+const MIDDLE_BLUR: f32 = 0.08;
 // How much the tone of thin cloud over thick cloud follows the thin one, 0 to 1: decks have a texture of their own.
 const DECK_TONE: f32 = 0.8;
 // Optical depth of the first part of a step within a cloud: most light comes from it.
 const FIRST_PART: f32 = 1.5;
 // Limits of the exponent that shortens the first parts of a step.
 const SHORTENING: vec2f = vec2f(1.5, 3.0);
-// Halvings of a step to find where a ray enters a cloud.
-const SEARCH: i32 = 3;
+// Halvings of a step to find where a ray enters a cloud: at low quality, at the others.
+const SEARCH: vec2i = vec2i(2, 3);
 
 // A ray through a layer.
 struct Way {
@@ -151,14 +153,16 @@ fn height_in_layer(way: Way, at_km: f32) -> f32 {
     return saturate1((altitude_km - bottom) / (body.cloud_layers[way.layer].top_km - bottom));
 }
 
-fn blur() -> f32 { return select(BLUR, LOW_BLUR, frame.pattern_quality == 0.0); }
+fn blur_of(number: u32) -> f32 {
+    // Shafts of rain and cells of middle clouds are narrower than steps: the mean over the jitter of pixels shows them.
+    // With less blur, that mean is grain.
+    let heaps = select(BLUR, LOW_BLUR, frame.pattern_quality == 0.0);
+    return vec4f(heaps, RAIN_BLUR, heaps, MIDDLE_BLUR)[number];
+}
 
 // The cloud at a distance along a ray, as steps of a length resolve it.
 fn cloud_on(way: Way, at_km: f32, sky: Sky, step_km: f32) -> Cloud {
-    // Shafts of rain are narrower than steps: the mean over the jitter of pixels shows them. With less blur, that mean
-    // is grain.
-    let share = select(blur(), RAIN_BLUR, way.layer == RAIN_LAYER);
-    let footprint = max(at_km * frame.pixel_rad, step_km * share);
+    let footprint = max(at_km * frame.pixel_rad, step_km * blur_of(way.layer));
     let height = height_in_layer(way, at_km);
     let extent = abs(height_in_layer(way, at_km + step_km) - height);
     return cloud_at(way.layer, way.dir * at_km, sky, height, extent, footprint);
@@ -210,6 +214,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     let high = max(sun_mu, 0.0) + 0.02;
     let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
+    let halvings = select(SEARCH.y, SEARCH.x, frame.pattern_quality == 0.0);
     var before = way.from_km;
     var was_empty = true;
     // A ray that leaves the layer by the side where it entered has twice the way, and the grid up to half as many more.
@@ -236,7 +241,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         if was_empty && layer.stride.z > 1.0 && cloud_on(way, t, sky_here, fine_km).density > LEAST_DENSITY {
             var inside = t;
             enter = before;
-            for (var k = 0; k < SEARCH; k++) {
+            for (var k = 0; k < halvings; k++) {
                 let middle = 0.5 * (enter + inside);
                 let density = cloud_on(way, middle, sky_here, fine_km).density;
                 if density > LEAST_DENSITY { inside = middle; } else { enter = middle; }
@@ -274,7 +279,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             if density <= LEAST_DENSITY { continue; }
             let rel = dir * here;
             let height = height_in_layer(way, here);
-            let footprint = max(here * frame.pixel_rad, length_km * blur());
+            let footprint = max(here * frame.pixel_rad, length_km * blur_of(way.layer));
             // A second density sample towards the sun shapes light and shade. Its distance is at least about a pixel.
             let reach = max(thickness * 0.4, here * frame.pixel_rad * 1.2);
             let ahead_height = saturate1(height + reach * sun_mu / thickness);

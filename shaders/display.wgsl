@@ -21,32 +21,37 @@ fn decode_srgb(c: vec3f) -> vec3f {
     return select(high, c / 12.92, c <= vec3f(0.04045));
 }
 
-// Weights of four pixels in a row for a place between the middle two (Catmull and Rom, A class of local interpolating
-// splines, 1974). `x`: of the place, 0 to 1.
-fn spline_weights(x: f32) -> vec4f {
-    let x2 = x * x;
-    let x3 = x2 * x;
-    return 0.5 * vec4f(2.0 * x2 - x - x3, 3.0 * x3 - 5.0 * x2 + 2.0, x + 4.0 * x2 - 3.0 * x3, x3 - x2);
+// Weights of three pixels in a row for a place nearest to the middle one: those of a spline (Catmull and Rom, A class of
+// local interpolating splines, 1974), whose fourth pixel, of the least weight, is taken to be like its neighbour.
+// `x`: of the place from the middle of the pixel, -0.5 to 0.5.
+fn spline_weights(x: f32) -> vec3f {
+    let a = abs(x);
+    let behind = -0.5 * a * (1.0 - a) * (1.0 - a);
+    let here = 1.0 + a * a * (1.5 * a - 2.5);
+    let ahead = 1.0 - behind - here;
+    return select(vec3f(behind, here, ahead), vec3f(ahead, here, behind), x < 0.0);
 }
 
 // An enlarged picture, by splines: straight lines between pixels would blur it. No darker and no brighter than the four
 // pixels around, as splines overshoot beside bright edges.
 fn enlarged(at_px: vec2f) -> vec3f {
     let last = vec2i(textureDimensions(shown)) - 1;
-    let corner = floor(at_px - 0.5);
-    let part = at_px - 0.5 - corner;
-    let across = spline_weights(part.x);
-    let down = spline_weights(part.y);
+    let middle = vec2i(at_px);
+    let aside = at_px - 0.5 - vec2f(middle);
+    let across = spline_weights(aside.x);
+    let down = spline_weights(aside.y);
+    // Those of the nine that are nearest.
+    let first = select(vec2i(1), vec2i(0), aside < vec2f(0.0));
     var sum = vec3f(0.0);
     var least = vec3f(1e9);
     var most = vec3f(0.0);
-    for (var i = 0; i < 16; i++) {
-        let place = vec2i(i % 4, i / 4);
-        let light = textureLoad(shown, clamp(vec2i(corner) + place - 1, vec2i(0), last), 0).rgb;
-        sum += light * (across[place.x] * down[place.y]);
-        if all(place >= vec2i(1)) && all(place <= vec2i(2)) {
-            least = min(least, light);
-            most = max(most, light);
+    for (var y = 0; y < 3; y++) {
+        for (var x = 0; x < 3; x++) {
+            let light = textureLoad(shown, clamp(middle + vec2i(x, y) - 1, vec2i(0), last), 0).rgb;
+            sum += light * (across[x] * down[y]);
+            let is_near = all(vec2i(x, y) - first >= vec2i(0)) && all(vec2i(x, y) - first <= vec2i(1));
+            least = select(least, min(least, light), is_near);
+            most = select(most, max(most, light), is_near);
         }
     }
     return clamp(sum, least, most);

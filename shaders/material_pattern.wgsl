@@ -79,6 +79,9 @@ fn shown_axis(planes: vec3f, nth: u32) -> u32 {
 // taps that close the gaps between them would smear the ground before the feet into stripes. What the gaps alias is a
 // part of one such pixel.
 const LOW_TAP_WIDTH: f32 = 0.6;
+// Level of detail from which it has one tap: there a pixel holds so much of the pattern that hardly more than its mean
+// is left, and a second tap is not worth its time.
+const LOW_TAPS_LOD: f32 = 3.5;
 
 // Number of taps along the longer side of a pixel's footprint: several taps stay sharper than one as wide as the
 // footprint is long. One is enough where pixels are hardly longer than wide, and where the whole pixel lies within a
@@ -128,9 +131,9 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     // The finer scale is for the ground at one's feet; it also hides the repetition of the coarser scale.
     let scales = select(1u, 2u, frame.pattern_quality > 0.0 && lod < 7.0);
     let is_low = frame.pattern_quality == 0.0;
-    let most_steps = select(1u << u32(frame.pattern_quality), 2u, is_low);
+    let most_steps = select(1u << u32(frame.pattern_quality), select(1u, 2u, lod < LOW_TAPS_LOD), is_low);
     let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, most_steps);
-    let tap_width = select(1.0, LOW_TAP_WIDTH, is_low && steps > 1u) / f32(steps);
+    let tap_width = select(1.0, LOW_TAP_WIDTH, is_low) / f32(steps);
     let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);
     let copies = axes * scales * steps;
     let taps = copies * select(1u, 2u, flows);

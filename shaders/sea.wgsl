@@ -83,18 +83,22 @@ const GUSTY: vec2u = vec2u(2u, 4u);
 const RIPPLES: f32 = 0.5;
 // The wind draws such patches out: cat's paws, and slicks in the lines of Langmuir's cells, are several times as long
 // as wide. So the noise is a mean over points along the wind (line integral convolution: Cabral and Leedom 1993). They
-// are a tenth of a period apart, and read a level of detail that has no blobs narrower than that.
-const STREAK_POINTS: i32 = 5;
+// are a tenth of a period apart, and read a level of detail that has no blobs narrower than that. Low quality has fewer
+// points on a shorter way.
+const STREAK_POINTS: vec2i = vec2i(3, 5);
 const STREAK_STEP: f32 = 0.16;
 const STREAK_LOD: f32 = 1.2;
 // Standard deviation of the noise over that of the mean.
-const STREAK_GAIN: f32 = 2.0;
+const STREAK_GAIN: vec2f = vec2f(1.6, 2.0);
 
 // Noise of a range of octaves of the macro variation, drawn out along the wind. Red of the noise tile (x), green (y).
 fn streaks(rel_m: vec3f, up: vec3f, footprint_m: f32, octaves: vec2u) -> vec2f {
     var along = body.sea_wind - up * dot(body.sea_wind, up);
     // On the other side of the planet it would have no direction.
     along /= max(length(along), 0.1);
+    let is_low = frame.pattern_quality == 0.0;
+    let points = select(STREAK_POINTS.y, STREAK_POINTS.x, is_low);
+    let gain = select(STREAK_GAIN.y, STREAK_GAIN.x, is_low) / f32(points);
     var position = rel_m;
     var sum = vec2f(0.0);
     for (var i = 0u; i <= octaves.y; i++) {
@@ -105,12 +109,12 @@ fn streaks(rel_m: vec3f, up: vec3f, footprint_m: f32, octaves: vec2u) -> vec2f {
         if i >= octaves.x {
             let at = octave.offset + position / octave.period;
             var here = vec2f(0.0);
-            for (var k = 0; k < STREAK_POINTS; k++) {
-                let aside = (f32(k) - 0.5 * f32(STREAK_POINTS - 1)) * STREAK_STEP;
+            for (var k = 0; k < points; k++) {
+                let aside = (f32(k) - 0.5 * f32(points - 1)) * STREAK_STEP;
                 let place = (at + along * aside).zxy;
                 here += textureSampleLevel(noise_tile, repeated, place, max(lod, STREAK_LOD)).rg - 0.5;
             }
-            sum += here * (share * STREAK_GAIN / f32(STREAK_POINTS));
+            sum += here * (share * gain);
         }
         position = OCTAVE_TURN * position;
         along = OCTAVE_TURN * along;

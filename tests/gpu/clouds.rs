@@ -1,12 +1,13 @@
 //! Clouds over time, drafts of their maps, and their cover against the field that queries answer from.
 
 use crate::support::{Gpu, SIZE_PX, camera, earth, frame, gpu, inside_disc, lights, preset, surface};
+use glam::DVec3;
 use std::sync::Arc;
 use tellus::clouds::CloudField;
 use tellus::lod::Quality;
 use tellus::planet::edits::CloudPaint;
 use tellus::planet::{Clouds, EditPoint, GroundEdit, Planet, Tool};
-use tellus::sphere::spread;
+use tellus::sphere::{LatLon, spread};
 use tellus::terrain::Terrain;
 
 const HOUR_SECS: f64 = 3600.0;
@@ -154,6 +155,45 @@ fn low_quality_loses_no_puffs() {
         found.push((off / spread).sqrt());
     }
     assert!(found.iter().all(|unlike| *unlike < 0.45), "shares of what the skies vary by: {found:?}");
+}
+
+/// Middle clouds are fields of cells of 0.3 to 1 km, at every quality: from above, the light varies over such lengths.
+#[test]
+fn middle_clouds_are_fields_of_cells() {
+    let clouds = Clouds { coverage: 0.0, middle: 0.6, layering: -1.0, veil: 0.0, fog: 0.0, ..Clouds::default() };
+    let bare = Planet { water: None, atmosphere: None, layers: Vec::new(), ..Planet::default() };
+    let planet = Arc::new(Planet { clouds: Some(clouds.clone()), ..bare });
+    let field = CloudField::new(&Terrain::try_new(Arc::clone(&planet)).unwrap());
+    let is_half = |dir: &DVec3| (0.5..0.7).contains(&field.cover(*dir, 0.0).middle) && dir.z.abs() < 0.5;
+    let place = spread(4000).find(is_half).map(LatLon::from_direction).unwrap();
+    let top_m = 1e3 * (clouds.altitude_km + clouds.thickness_km + clouds.middle_gap_km + clouds.middle_thickness_km);
+    let [lat, lon] = [place.lat_rad, place.lon_rad].map(f64::to_degrees);
+    let mut gpu = gpu();
+    for quality in [Quality::Low, Quality::Medium] {
+        let camera = camera(&planet, lat, lon, top_m + 8e3, 0.0, -90.0);
+        let surface = surface(&planet, &camera);
+        let mut scene = frame(&surface, &planet, camera, (lat, lon - 30.0));
+        scene.quality = quality;
+        scene.post.tone = tellus::render::Tone::Plain;
+        let greens: Vec<f64> = gpu.draw(&scene).chunks(4).map(|pixel| f64::from(pixel[1])).collect();
+        // A pixel is 41 m wide at the top of the clouds.
+        let [width, height] = SIZE_PX.map(|side| side as usize);
+        let mean = |x: usize, y: usize, reach: usize| {
+            let rows = greens.chunks(width).skip(y - reach).take(2 * reach + 1);
+            let sum: f64 = rows.map(|row| row[x - reach..=x + reach].iter().sum::<f64>()).sum();
+            sum / ((2 * reach + 1) as f64).powi(2)
+        };
+        let places = (16..height - 16).step_by(4).flat_map(|y| (16..width - 16).step_by(4).map(move |x| (x, y)));
+        let (mut cells, mut count) = (0.0, 0.0);
+        for (x, y) in places {
+            // Lengths from 200 m to 1.3 km.
+            cells += (mean(x, y, 2) - mean(x, y, 16)).powi(2);
+            count += 1.0;
+        }
+        let contrast = (cells / count).sqrt();
+        println!("{quality:?}: {contrast}");
+        assert!(contrast > 20.0, "{quality:?}: a contrast of {contrast} codes");
+    }
 }
 
 /// No cover draws what no clouds draw, to the bit.

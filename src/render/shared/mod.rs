@@ -75,6 +75,7 @@ pub(crate) fn text() -> String {
         ("RAIN_LAYER", &RAIN_LAYER),
         ("LOW_LAYER", &LOW_LAYER),
         ("MIDDLE_LAYER", &MIDDLE_LAYER),
+        ("ROWS", &ROWS),
         ("WAVES", &(WAVES as u32)),
         // Biomes
         ("BIOME_ROCK", &(ROCK as i32)),

@@ -7,14 +7,15 @@ use crate::planet::{Clouds, Planet};
 use crate::render::scene::Scene;
 use crate::render::shared::{
     CLOUD_LAYERS, CloudLayer, FOG_BANDS, FOG_LAYER, LOW_BANDS, LOW_LAYER, LOW_PUFF_BAND, MIDDLE_BANDS, MIDDLE_LAYER,
-    RAIN_BANDS, RAIN_LAYER,
+    RAIN_BANDS, RAIN_LAYER, ROWS,
 };
 use crate::terrain::border::OCTAVE_TURN;
 use glam::{DVec3, Vec2};
 use std::f64::consts::TAU;
 
-/// Period of each band over that of the next finer one.
+/// Period of each band over that of the next finer one, and of those of middle clouds: groups, lumps, cells.
 const BAND_RATIO: f64 = 3.3;
+const MIDDLE_RATIO: f64 = 2.4;
 /// Puffs along the side of the noise tile, in the band that makes puffs.
 const PUFFS_PER_TILE: f64 = 4.0;
 /// First step of a march that begins in the layer, in thicknesses of the layer.
@@ -73,9 +74,14 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
         let [before, after] = layer.bands;
         let mut position_km = drifted_km;
         for band in 0..before + after {
-            let period_km = layer.puff_period_km * BAND_RATIO.powi(before as i32 - band as i32);
+            let is_middle = layer.index == MIDDLE_LAYER;
+            let ratio = if is_middle { MIDDLE_RATIO } else { BAND_RATIO };
+            let period_km = layer.puff_period_km * ratio.powi(before as i32 - band as i32);
             out.cloud_bands[first_band + band] = octave(position_km, period_km);
             position_km = OCTAVE_TURN * position_km;
+            if is_middle && band == before {
+                position_km = ROWS * position_km;
+            }
         }
         // The longest way within the layer goes from its top down to its bottom and up again.
         let longest_km = 2.0 * (2.0 * (planet.radius_km + top_km).max(0.0) * layer.thickness_km).sqrt();
@@ -123,7 +129,7 @@ fn layers(planet: &Planet, clouds: &Clouds, quality: Quality) -> [Layer; CLOUD_L
             bottom_km: clouds.altitude_km,
             thickness_km: clouds.thickness_km,
             optical_depth: clouds.density,
-            effort: at([17.0, 2.0], [28.0, 4.0], [44.0, 4.0]),
+            effort: at([14.0, 2.0], [28.0, 4.0], [44.0, 4.0]),
             bands: [LOW_PUFF_BAND, LOW_BANDS - LOW_PUFF_BAND],
             puff_period_km,
         },
