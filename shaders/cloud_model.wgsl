@@ -152,8 +152,16 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     var cells = 0.0;
     var weight = 0.9;
     let is_middle = number == MIDDLE_LAYER;
-    var strength = mix(select(1.0, CELL_GROUPS, is_middle), 0.45, layered);
-    let finer = select(0.42, mix(CELLS / CELL_GROUPS, 0.42, layered), is_middle);
+    var strength = mix(1.0, 0.45, layered);
+    var finer = 0.42;
+    if is_middle {
+        // Lumps take over where cells are too small to resolve, so that their noise spreads as widely.
+        let cell = body.cloud_bands[body.cloud_layers[number].end_band - 1u];
+        let lost = smoothstep(-0.5, 2.6, log2(max(footprint * NOISE_TILE_SIDE / cell.period, 1e-6)));
+        let lumps = mix(CELL_GROUPS, 1.0, lost);
+        strength = mix(lumps, 0.45, layered);
+        finer = mix(CELLS / lumps, 0.42, layered);
+    }
     var blurred = 1.0;
     var afar = 1.0;
     let end = body.cloud_layers[number].end_band;
