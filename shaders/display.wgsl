@@ -21,8 +21,8 @@ fn decode_srgb(c: vec3f) -> vec3f {
     return select(high, c / 12.92, c <= vec3f(0.04045));
 }
 
-// Weights of three pixels in a row for a place nearest to the middle one: those of a spline (Catmull and Rom, A class of
-// local interpolating splines, 1974), whose fourth pixel, of the least weight, is taken to be like its neighbour.
+// Weights of three pixels in a row for a place nearest to the middle one: those of a spline (Catmull and Rom, A class
+// of local interpolating splines, 1974), whose fourth pixel, of the least weight, is taken to be like its neighbour.
 // `x`: of the place from the middle of the pixel, -0.5 to 0.5.
 fn spline_weights(x: f32) -> vec3f {
     let a = abs(x);
