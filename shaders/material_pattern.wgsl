@@ -81,7 +81,7 @@ fn shown_axis(planes: vec3f, nth: u32) -> u32 {
 const LOW_TAP_WIDTH: f32 = 0.6;
 // Level of detail from which it has one tap: there a pixel holds so much of the pattern that hardly more than its mean
 // is left, and a second tap is not worth its time.
-const LOW_TAPS_LOD: f32 = 3.5;
+const LOW_TAPS_LOD: f32 = 5.5;
 
 // Number of taps along the longer side of a pixel's footprint: several taps stay sharper than one as wide as the
 // footprint is long. One is enough where pixels are hardly longer than wide, and where the whole pixel lies within a
