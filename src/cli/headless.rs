@@ -28,14 +28,15 @@ impl Gpu {
     }
 
     async fn open_async(size_px: [u32; 2]) -> Result<Self, String> {
-        // OpenGL only on request or as a last resort, because its drivers print to standard error.
-        let asked = wgpu::Backends::from_env();
-        let adapter = match adapter(asked.unwrap_or(wgpu::Backends::PRIMARY)).await {
-            Err(_) if asked.is_none() && std::env::var_os(ADAPTER_NAME).is_none() => adapter(wgpu::Backends::GL).await,
-            result => result,
-        }?;
+        let adapter = adapter(wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY)).await?;
         let info = adapter.get_info();
         let name = format!("{} ({})", info.name, info.backend);
+        if !Renderer::can_use(&adapter) {
+            return Err(format!(
+                "the GPU ({name}) cannot draw what the renderer needs; use Vulkan, Metal or DirectX 12 (Debian, Ubuntu: \
+                 mesa-vulkan-drivers, which also draws without a GPU)"
+            ));
+        }
         let mut required_limits = Renderer::required_limits();
         let side = size_px[0].max(size_px[1]);
         required_limits.max_texture_dimension_2d = required_limits.max_texture_dimension_2d.max(side);

@@ -111,6 +111,8 @@ fn wgpu_configuration() -> egui_wgpu::WgpuConfiguration {
     let mut configuration =
         egui_wgpu::WgpuConfiguration::default().with_surface_config(egui_wgpu::SurfaceConfig::LOW_LATENCY);
     if let egui_wgpu::WgpuSetup::CreateNew(setup) = &mut configuration.wgpu_setup {
+        // An adapter of OpenGL would open a window without a planet.
+        setup.instance_descriptor.backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
         setup.device_descriptor = Arc::new(|adapter| wgpu::DeviceDescriptor {
             label: Some("tellus"),
             required_limits: wgpu::Limits {

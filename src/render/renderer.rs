@@ -93,6 +93,17 @@ impl Renderer {
         wgpu::Limits::default()
     }
 
+    /// Whether an adapter draws to all formats that the renderer needs. Those of OpenGL do not.
+    pub fn can_use(adapter: &wgpu::Adapter) -> bool {
+        let draws_to = |format| {
+            let features = adapter.get_texture_format_features(format);
+            features.allowed_usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT)
+        };
+        [wgpu::TextureFormat::Rg32Float, wgpu::TextureFormat::R32Float, super::RADIANCE_FORMAT]
+            .into_iter()
+            .all(draws_to)
+    }
+
     /// Compiles the pipelines and uploads the patterns.
     ///
     /// # Errors

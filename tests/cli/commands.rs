@@ -264,6 +264,23 @@ fn render_needs_little_to_be_told_and_cannot_write_everywhere() {
     assert!(status == 1 && err.contains("there is no folder"), "{err}");
 }
 
+/// OpenGL draws to too few formats. Whether the machine has it or not, one sentence says what would be right.
+#[test]
+fn without_a_driver_that_will_do_one_sentence_says_what_to_install() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("picture.png");
+    let output = Command::new(env!("CARGO_BIN_EXE_tellus"))
+        .args(["render", "planets/pallor.ron", "--size", "16x9", "-o"])
+        .arg(&picture)
+        .env("WGPU_BACKEND", "gl")
+        .env_remove("WGPU_ADAPTER_NAME")
+        .output()
+        .unwrap();
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(err.contains("mesa-vulkan-drivers") && !err.contains("renderable") && !picture.exists(), "{err}");
+}
+
 #[test]
 fn a_gpu_that_is_not_there_is_named() {
     let output = tellus(&["render", LAYERED, "-o", "never.png", "--size", "16x9"])
