@@ -33,8 +33,8 @@ impl Gpu {
         let name = format!("{} ({})", info.name, info.backend);
         if !Renderer::can_use(&adapter) {
             return Err(format!(
-                "the GPU ({name}) cannot draw what the renderer needs; use Vulkan, Metal or DirectX 12 (Debian, Ubuntu: \
-                 mesa-vulkan-drivers, which also draws without a GPU)"
+                "the GPU ({name}) cannot draw what the renderer needs; use Vulkan, Metal or DirectX 12 \
+                 (Debian, Ubuntu: mesa-vulkan-drivers, which also draws without a GPU)"
             ));
         }
         let mut required_limits = Renderer::required_limits();

@@ -8,6 +8,7 @@
 //! preset with its old edits or the new one with its new edits.
 
 use super::file::{self, LoadError, write_atomically};
+use super::key::fnv1a;
 use super::param::ParamPath;
 use super::{Planet, Problem, explain, locate, snippet};
 use std::fs;
@@ -175,11 +176,6 @@ pub(super) fn texts(planet: &Planet, preset: &Path) -> Texts {
         }
         _ => in_one(),
     }
-}
-
-/// FNV-1a (Fowler, Noll, Vo 1991).
-fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// Writes an edits file, unless it is there.

@@ -34,6 +34,11 @@ impl Key {
     }
 }
 
+/// FNV-1a with 64 bits (Fowler, Noll, Vo 1991): equal bytes give equal names in every build, unlike the standard hasher.
+pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
 /// FNV-1a with 128 bits (Fowler, Noll, Vo; IETF draft-eastlake-fnv): start value and prime.
 const OFFSET_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
 const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;

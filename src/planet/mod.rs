@@ -8,9 +8,9 @@
 //! - [`diff`]: which parameters two planets differ in
 //! - [`key`]: content keys
 //! - [`validate`]: ranges, references between names, the shape of the biome table
-//! - [`mod@file`]: loading and saving; `open` opens files, `beside` keeps long lists of edits in
-//!   a file of their own, `text` writes a preset, `explain` parses one and explains
-//!   errors, `locate` finds lines and columns, `migrate` reads old versions; [`snippet`] reads and writes single parts
+//! - [`mod@file`]: loading and saving; `open` opens files, `beside` keeps long lists of edits in a file of their
+//!   own, `text` writes a preset, `explain` parses one and explains errors, `locate` finds lines and columns, `migrate`
+//!   reads old versions; [`snippet`] reads and writes single parts
 //! - `giant`: gas giants, and giants to start from
 //! - `rings`: rings of a planet, and rings to start from
 //! - `printable`: text of strangers, as it may be shown

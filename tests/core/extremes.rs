@@ -249,6 +249,7 @@ fn ten_thousand_planets_at_random_ends() {
         println!("{} of {LONG_PLANETS} planets", first + STEP as u64 - PLANETS);
     }
     println!(
-        "counted: {LONG_PLANETS} planets at random ends, one of {TILES_OF} with tiles; planet {seed} took longest: {secs:.1} s"
+        "counted: {LONG_PLANETS} planets at random ends, one of {TILES_OF} with tiles; \
+         planet {seed} took longest: {secs:.1} s"
     );
 }

@@ -48,31 +48,17 @@ fn place(dice: &mut Dice) -> egui::Pos2 {
 
 /// One random event, as the window gets them.
 fn event(harness: &mut Editor, dice: &mut Dice) {
-    let button = |pos, pressed, dice: &mut Dice| egui::Event::PointerButton {
-        pos,
-        button: if dice.below(8) == 0 { egui::PointerButton::Secondary } else { egui::PointerButton::Primary },
-        pressed,
-        modifiers: egui::Modifiers::NONE,
-    };
     match dice.below(10) {
         kind @ 0..6 => {
             let (from, to) = (place(dice), place(dice));
             let to = if kind < 4 { from } else { to };
-            let pressed = button(from, true, dice);
-            let released = match &pressed {
-                egui::Event::PointerButton { button, .. } => egui::Event::PointerButton {
-                    pos: to,
-                    button: *button,
-                    pressed: false,
-                    modifiers: egui::Modifiers::NONE,
-                },
-                other => other.clone(),
-            };
+            let button = if dice.below(8) == 0 { egui::PointerButton::Secondary } else { egui::PointerButton::Primary };
+            let modifiers = egui::Modifiers::NONE;
             harness.event(egui::Event::PointerMoved(from));
-            harness.event(pressed);
+            harness.event(egui::Event::PointerButton { pos: from, button, pressed: true, modifiers });
             harness.step();
             harness.event(egui::Event::PointerMoved(to));
-            harness.event(released);
+            harness.event(egui::Event::PointerButton { pos: to, button, pressed: false, modifiers });
         }
         6 => {
             let lines = dice.below(9) as f32 - 4.0;

@@ -157,7 +157,8 @@ fn low_quality_loses_no_puffs() {
     assert!(found.iter().all(|unlike| *unlike < 0.45), "shares of what the skies vary by: {found:?}");
 }
 
-/// Middle clouds are fields of cells of 0.3 to 1 km, at every quality: from above, the light varies over such lengths.
+/// Middle clouds are fields of cells of 0.3 to 1 km, at every quality: the light varies over such lengths. The bars lie
+/// between the contrasts of such fields (32 and 35) and of the flat slabs that middle clouds were (27 and 31).
 #[test]
 fn middle_clouds_are_fields_of_cells() {
     let clouds = Clouds { coverage: 0.0, middle: 0.6, layering: -1.0, veil: 0.0, fog: 0.0, ..Clouds::default() };
@@ -169,14 +170,15 @@ fn middle_clouds_are_fields_of_cells() {
     let top_m = 1e3 * (clouds.altitude_km + clouds.thickness_km + clouds.middle_gap_km + clouds.middle_thickness_km);
     let [lat, lon] = [place.lat_rad, place.lon_rad].map(f64::to_degrees);
     let mut gpu = gpu();
-    for quality in [Quality::Low, Quality::Medium] {
-        let camera = camera(&planet, lat, lon, top_m + 8e3, 0.0, -90.0);
+    for (quality, least) in [(Quality::Low, 29.5), (Quality::Medium, 32.5)] {
+        // At a slant, steps through the thin layer are longer than cells are wide.
+        let camera = camera(&planet, lat, lon, top_m + 3e3, 0.0, -28.0);
         let surface = surface(&planet, &camera);
         let mut scene = frame(&surface, &planet, camera, (lat, lon - 30.0));
         scene.quality = quality;
         scene.post.tone = tellus::render::Tone::Plain;
         let greens: Vec<f64> = gpu.draw(&scene).chunks(4).map(|pixel| f64::from(pixel[1])).collect();
-        // A pixel is 41 m wide at the top of the clouds.
+        // A pixel in the middle is 33 m wide and 70 m long at the top of the clouds.
         let [width, height] = SIZE_PX.map(|side| side as usize);
         let mean = |x: usize, y: usize, reach: usize| {
             let rows = greens.chunks(width).skip(y - reach).take(2 * reach + 1);
@@ -186,13 +188,13 @@ fn middle_clouds_are_fields_of_cells() {
         let places = (16..height - 16).step_by(4).flat_map(|y| (16..width - 16).step_by(4).map(move |x| (x, y)));
         let (mut cells, mut count) = (0.0, 0.0);
         for (x, y) in places {
-            // Lengths from 200 m to 1.3 km.
+            // Lengths from 150 m to 2 km.
             cells += (mean(x, y, 2) - mean(x, y, 16)).powi(2);
             count += 1.0;
         }
         let contrast = (cells / count).sqrt();
         println!("{quality:?}: {contrast}");
-        assert!(contrast > 20.0, "{quality:?}: a contrast of {contrast} codes");
+        assert!(contrast > least, "{quality:?}: a contrast of {contrast} codes");
     }
 }
 

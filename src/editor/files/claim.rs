@@ -2,6 +2,7 @@
 //! file named after the document's path. The system releases the lock when the window ends, also after a crash. The
 //! lock blocks nothing: it only informs.
 
+use crate::planet::key::fnv1a;
 use std::fs::{self, File, TryLockError};
 use std::io::{Seek as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -67,11 +68,6 @@ pub fn is_claim(name: &std::ffi::OsStr) -> bool {
 
 fn lock_path(stem: &Path, slot: u32) -> PathBuf {
     stem.with_extension(format!("{slot}.lock"))
-}
-
-/// FNV-1a (Fowler, Noll, Vo 1991): gives equal names in every build, unlike the standard hasher.
-fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 #[cfg(test)]
