@@ -34,7 +34,8 @@ impl Key {
     }
 }
 
-/// FNV-1a with 64 bits (Fowler, Noll, Vo 1991): equal bytes give equal names in every build, unlike the standard hasher.
+/// FNV-1a with 64 bits (Fowler, Noll, Vo 1991): equal bytes give equal names in every build, unlike the standard
+/// hasher.
 pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
