@@ -4,8 +4,7 @@ use crate::sphere::raster::{cube_direction, cube_point};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// The cells of six faces of `side` by `side`, face by face, row by row. The same for every planet.
 pub(crate) struct Cells {
@@ -13,48 +12,54 @@ pub(crate) struct Cells {
     pub(crate) side: usize,
     /// Unit directions of the centres.
     pub(crate) dirs: Vec<DVec3>,
-    /// The eight cells around each cell. At a corner of the cube some of them coincide.
-    pub(crate) neighbours: Vec<[u32; 8]>,
+    /// What [`Cells::around`] answers at the edges of faces, by [`edge_cell`].
+    edges: Vec<[u32; 8]>,
 }
 
-/// Time after which cells that nobody uses are forgotten.
-const KEPT: Duration = Duration::from_secs(60);
+/// Sides up to here are kept: drafts solve maps on them many times a second, and all of them together take few MB.
+const KEPT_SIDE: usize = 64;
 
-/// Cells that were asked for.
+/// Cells that somebody holds, and those of small sides.
+#[derive(Default)]
 struct Known {
-    cells: Arc<Cells>,
-    /// When they were asked for last.
-    asked: Instant,
+    held: BTreeMap<usize, Weak<Cells>>,
+    small: Vec<Arc<Cells>>,
 }
 
-/// Forgets cells that nobody uses and nobody has asked for in a while.
-fn forget(known: &mut BTreeMap<usize, Known>, now: Instant) {
-    known.retain(|_, known| Arc::strong_count(&known.cells) > 1 || now.saturating_duration_since(known.asked) < KEPT);
+impl Known {
+    fn find(&self, side: usize) -> Option<Arc<Cells>> {
+        self.held.get(&side)?.upgrade()
+    }
+
+    /// The cells of a side: those that are known, else `cells`.
+    fn add(&mut self, cells: Arc<Cells>) -> Arc<Cells> {
+        if let Some(found) = self.find(cells.side) {
+            return found;
+        }
+        self.held.retain(|_, cells| cells.strong_count() > 0);
+        self.held.insert(cells.side, Arc::downgrade(&cells));
+        if cells.side <= KEPT_SIDE {
+            self.small.push(cells.clone());
+        }
+        cells
+    }
 }
 
 impl Cells {
-    /// The cells of a side: shared, and kept until nobody has asked for them for a while. Those of the finest side take
-    /// 350 MB.
+    /// The cells of a side. They are shared while somebody holds them, as a solved map does with those that it reads;
+    /// those of the finest side take 150 MB.
     pub(crate) fn of(side: usize) -> Arc<Cells> {
-        static KNOWN: Mutex<BTreeMap<usize, Known>> = Mutex::new(BTreeMap::new());
+        static KNOWN: Mutex<Known> = Mutex::new(Known { held: BTreeMap::new(), small: Vec::new() });
         // Computed outside the lock: its thread pool may hand this thread other work that asks for cells.
         let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        let now = Instant::now();
-        let find = |known: &mut BTreeMap<usize, Known>| {
-            forget(known, now);
-            let found = known.get_mut(&side)?;
-            found.asked = now;
-            Some(found.cells.clone())
-        };
-        if let Some(cells) = find(&mut known()) {
+        if let Some(cells) = known().find(side) {
             return cells;
         }
         let cells = Arc::new(Self::new(side));
-        known().entry(side).or_insert(Known { cells, asked: now }).cells.clone()
+        known().add(cells)
     }
 
-    /// The eight cells around a cell, as [`Self::neighbours`] lists them. Away from the edges of faces they follow from
-    /// the cell alone, without a look into a large table.
+    /// The eight cells around a cell, row by row. At a corner of the cube some of them coincide.
     #[inline(always)]
     pub(crate) fn around(&self, cell: usize) -> [u32; 8] {
         let side = self.side as u32;
@@ -63,7 +68,7 @@ impl Cells {
         if column.wrapping_sub(1) < side.wrapping_sub(2) && row.wrapping_sub(1) < side - 2 {
             return beside(cell, self.side);
         }
-        self.neighbours[cell]
+        self.edges[edge_cell(cell, self.side)]
     }
 
     /// Half the angle that a cell in the middle of a face spans: detail finer than this is not seen by the cells.
@@ -76,10 +81,6 @@ impl Cells {
         let dir = |face, x: f64, y: f64| cube_direction(face, side, x + 0.5, y + 0.5);
         let around = |cell: usize| {
             let (face, column, row) = place(cell);
-            let inner = 1..side - 1;
-            if inner.contains(&column) && inner.contains(&row) {
-                return beside(cell, side);
-            }
             let steps = [(-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1), (1, 1)];
             steps.map(|(dx, dy)| {
                 let (x, y) = (column as f64 + f64::from(dx), row as f64 + f64::from(dy));
@@ -93,12 +94,27 @@ impl Cells {
             dir(face, column as f64, row as f64)
         };
         let cells = 0..6 * side * side;
-        Self {
-            side,
-            dirs: cells.clone().into_par_iter().map(center).collect(),
-            neighbours: cells.into_par_iter().map(around).collect(),
+        let mut edges = vec![[0; 8]; 6 * 4 * side];
+        for cell in cells.clone() {
+            let (_, column, row) = place(cell);
+            if [column, row].iter().any(|at| [0, side - 1].contains(at)) {
+                edges[edge_cell(cell, side)] = around(cell);
+            }
         }
+        Self { side, dirs: cells.into_par_iter().map(center).collect(), edges }
     }
+}
+
+/// Number of a cell at an edge of its face: below `4 * side` on each face.
+fn edge_cell(cell: usize, side: usize) -> usize {
+    let (face, column, row) = (cell / (side * side), cell % side, cell / side % side);
+    let at = match row {
+        0 => column,
+        _ if row == side - 1 => side + column,
+        _ if column == 0 => 2 * side + row,
+        _ => 3 * side + row,
+    };
+    4 * side * face + at
 }
 
 /// The eight cells around one that does not lie at an edge of its face.
@@ -114,23 +130,29 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_that_nobody_uses_are_forgotten_after_a_while() {
-        let now = Instant::now();
-        let cells = |side| Arc::new(Cells::new(side));
-        let used = cells(2);
-        let mut known: BTreeMap<usize, Known> = [
-            (2, Known { cells: used.clone(), asked: now }),
-            (4, Known { cells: cells(4), asked: now }),
-            (8, Known { cells: cells(8), asked: now + KEPT }),
-        ]
-        .into();
-        let sides = |known: &BTreeMap<usize, Known>| known.keys().copied().collect::<Vec<_>>();
-        forget(&mut known, now);
-        assert_eq!(sides(&known), [2, 4, 8]);
-        forget(&mut known, now + KEPT);
-        assert_eq!(sides(&known), [2, 8]);
-        drop(used);
-        forget(&mut known, now + 2 * KEPT);
-        assert!(known.is_empty());
+    fn cells_around_a_cell_touch_it_and_lie_around_each_other() {
+        for side in [1, 2, 3, 16] {
+            let cells = Cells::new(side);
+            let far = 2.9 * std::f64::consts::FRAC_PI_4 / side as f64 * std::f64::consts::SQRT_2;
+            for cell in 0..cells.dirs.len() {
+                for other in cells.around(cell) {
+                    let other = other as usize;
+                    assert!(cells.dirs[cell].angle_between(cells.dirs[other]) < far, "{side}: {cell} {other}");
+                    assert!(side < 3 || cells.around(other).contains(&(cell as u32)), "{side}: {cell} {other}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn cells_are_shared_while_somebody_holds_them_and_small_ones_always() {
+        let mut known = Known::default();
+        let [small, large] = [KEPT_SIDE, KEPT_SIDE + 1].map(|side| Arc::new(Cells::new(side)));
+        for cells in [&small, &large] {
+            known.add(cells.clone());
+            assert!(Arc::ptr_eq(cells, &known.add(Arc::new(Cells::new(cells.side)))));
+        }
+        drop((small, large));
+        assert!(known.find(KEPT_SIDE).is_some() && known.find(KEPT_SIDE + 1).is_none());
     }
 }

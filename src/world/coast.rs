@@ -43,14 +43,14 @@ impl WorldMap for Coast {
 impl Coast {
     /// Finds the coast of a sea of this level, given the height at each cell.
     fn new(cells: &Cells, sea_level_m: f64, heights_m: &[f64]) -> Self {
-        let Cells { side, dirs, neighbours } = cells;
+        let Cells { side, dirs, .. } = cells;
         let above_m: Vec<f64> = heights_m.iter().map(|height_m| height_m - sea_level_m).collect();
         let is_sea = |cell: usize| above_m[cell] < 0.0;
         // The nearest coast point known to each cell, and the square of the straight line to it.
         let mut nearest = vec![(f64::MAX, DVec3::ZERO); dirs.len()];
         let mut waiting = VecDeque::new();
-        for (cell, around) in neighbours.iter().enumerate() {
-            for other in around.iter().map(|&other| other as usize) {
+        for cell in 0..dirs.len() {
+            for other in cells.around(cell).map(|other| other as usize) {
                 if is_sea(cell) != is_sea(other) {
                     let share = above_m[cell] / (above_m[cell] - above_m[other]);
                     let point = (dirs[cell] + (dirs[other] - dirs[cell]) * share).normalize();
@@ -68,7 +68,7 @@ impl Coast {
         while let Some(cell) = waiting.pop_front() {
             is_waiting[cell] = false;
             let (_, point) = nearest[cell];
-            for other in neighbours[cell].iter().map(|&other| other as usize) {
+            for other in cells.around(cell).map(|other| other as usize) {
                 let distance2 = dirs[other].distance_squared(point);
                 if distance2 < nearest[other].0 {
                     nearest[other] = (distance2, point);

@@ -60,7 +60,7 @@ pub(crate) fn parent(side: usize, cell: usize) -> usize {
 }
 
 /// The three neighbours of a parent that lie on the side of its child number `quarter`: along the row, along the
-/// column, across the corner. Indices into [`Cells::neighbours`].
+/// column, across the corner. Indices into [`Cells::around`].
 const TOWARDS: [[usize; 3]; 4] = [[3, 1, 0], [4, 1, 2], [3, 6, 5], [4, 6, 7]];
 
 /// Values on the grid of twice the side, bilinear between the middles of cells.
@@ -71,7 +71,8 @@ pub(crate) fn refined(cells: &Cells, values: &[f64]) -> Vec<f64> {
         .map(|child| {
             let cell = parent(side, child);
             let quarter = (child % side) % 2 + 2 * ((child / side % side) % 2);
-            let [row, column, corner] = TOWARDS[quarter].map(|k| values[cells.neighbours[cell][k] as usize]);
+            let around = cells.around(cell);
+            let [row, column, corner] = TOWARDS[quarter].map(|k| values[around[k] as usize]);
             (9.0 * values[cell] + 3.0 * (row + column) + corner) * (1.0 / 16.0)
         })
         .collect()
@@ -82,7 +83,7 @@ pub(crate) fn smoothed(cells: &Cells, values: &[f64], rounds: usize) -> Vec<f64>
     let mut values = values.to_vec();
     for _ in 0..rounds {
         let mean = |cell: usize| {
-            let around: f64 = cells.neighbours[cell].iter().map(|&other| values[other as usize]).sum();
+            let around: f64 = cells.around(cell).iter().map(|&other| values[other as usize]).sum();
             (2.0 * values[cell] + around) * 0.1
         };
         values = (0..values.len()).into_par_iter().map(mean).collect();

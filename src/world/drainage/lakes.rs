@@ -135,7 +135,7 @@ impl Lakes {
                 level_m = level_m.max(beds_m[cell as usize]);
                 self.lake[cell as usize] = number;
                 wet.push(cell);
-                for &other in &cells.neighbours[cell as usize] {
+                for other in cells.around(cell as usize) {
                     // Only ground that drains into the lake: beyond it lies another basin.
                     if self.lake[other as usize] == 0 && self.lake[routes.receiver[other as usize] as usize] == number {
                         waiting.push(Reverse((above(other, beds_m), other)));

@@ -214,7 +214,7 @@ pub(super) fn sinks(
             next += 1;
             lost += level.dryness_mm[cell].max(0.0) * 1e-3 * level.areas_sr[cell];
             inflow = inflow.max(discharge[cell]);
-            for other in cells.neighbours[cell].iter().map(|&other| other as usize) {
+            for other in cells.around(cell).map(|other| other as usize) {
                 if !std::mem::replace(&mut seen[other], true) {
                     basin.push(other);
                 }

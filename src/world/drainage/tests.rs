@@ -211,7 +211,7 @@ fn no_ways_cross(found: &Drainage) {
     let mut crossings = 0;
     for &cell in &found.order {
         let (a, b) = (place(cell), place(found.receiver[cell as usize]));
-        for &near in &cells.neighbours[cell as usize] {
+        for near in cells.around(cell as usize) {
             let to = found.receiver[near as usize];
             if found.is_sea[near as usize] || [to, near].contains(&found.receiver[cell as usize]) || to == cell {
                 continue;

@@ -248,7 +248,7 @@ impl<'a> Ground<'a> {
     fn slope(&self, values: &[f64], cell: usize) -> DVec3 {
         let [mut sum, mut squares] = [DVec2::ZERO; 2];
         let mut across = 0.0;
-        for (way, &other) in self.around[cell].iter().zip(&self.cells.neighbours[cell]) {
+        for (way, other) in self.around[cell].iter().zip(self.cells.around(cell)) {
             sum += *way * (values[other as usize] - values[cell]);
             squares += *way * *way;
             across += way.x * way.y;
@@ -263,7 +263,7 @@ impl<'a> Ground<'a> {
 /// [`Ground::around`] of a cell.
 fn around(cells: &Cells, cell: usize) -> [DVec2; 8] {
     let here = cells.dirs[cell];
-    cells.neighbours[cell].map(|other| tangent(here, cells.dirs[other as usize] - here))
+    cells.around(cell).map(|other| tangent(here, cells.dirs[other as usize] - here))
 }
 
 /// A vector of the planet frame in the tangent plane at a direction: to the east and to the north.

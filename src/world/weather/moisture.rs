@@ -52,8 +52,8 @@ pub(super) fn rain_mm(ground: &Ground<'_>, season: &Season, keep_going: &KeepGoi
     let mut carried: Vec<f64> =
         steps.iter().zip(&ground.is_sea).map(|(step, sea)| step.most * if *sea { 0.8 } else { 0.25 }).collect();
     let before = |carried: &[f64], cell: usize| {
-        let around = &ground.cells.neighbours[cell];
-        steps[cell].from.iter().zip(around).map(|(share, &other)| share * carried[other as usize]).sum::<f64>()
+        let around = ground.cells.around(cell);
+        steps[cell].from.iter().zip(around).map(|(share, other)| share * carried[other as usize]).sum::<f64>()
     };
     for _ in 0..ground.cells.side {
         if !keep_going() {
@@ -88,9 +88,9 @@ impl Step {
         let speed = wind.length() / params.wind_m_s.max(1e-6);
         let (from, away) = upwind(&ground.around[cell], tangent(ground.cells.dirs[cell], wind));
         let km = away * EARTH_KM;
-        let others = from.iter().zip(&ground.cells.neighbours[cell]);
+        let others = from.iter().zip(ground.cells.around(cell));
         let climb_km: f64 =
-            others.map(|(share, &other)| share * (ground.height_km[cell] - ground.height_km[other as usize])).sum();
+            others.map(|(share, other)| share * (ground.height_km[cell] - ground.height_km[other as usize])).sum();
         // Rising air rains; sinking air, and air that flows downhill, keeps its moisture.
         let lift = ramp(-1.05, 1.1, season.rising[cell]);
         let rising = 0.12 + 1.25 * lift;

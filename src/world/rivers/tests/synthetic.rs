@@ -41,7 +41,7 @@ fn flood(cells: &Cells, ground_m: &[f64]) -> (Vec<f64>, Vec<u32>, Vec<u32>) {
     }
     while let Some(Reverse((_, cell))) = heap.pop() {
         order.push(cell);
-        for &other in &cells.neighbours[cell as usize] {
+        for other in cells.around(cell as usize) {
             if !std::mem::replace(&mut seen[other as usize], true) {
                 let uneven = 0.02 + f64::from(other.wrapping_mul(2_654_435_761) >> 24) * 1e-3;
                 filled[other as usize] = ground_m[other as usize].max(filled[cell as usize] + uneven);
@@ -54,7 +54,7 @@ fn flood(cells: &Cells, ground_m: &[f64]) -> (Vec<f64>, Vec<u32>, Vec<u32>) {
         if filled[cell as usize] < SEA_M {
             return cell;
         }
-        let around = &cells.neighbours[cell as usize];
+        let around = cells.around(cell as usize);
         let beside = [Some((1, 3)), None, Some((1, 4)), None, None, Some((3, 6)), None, Some((4, 6))];
         let slope = |other: u32| {
             let length = cells.dirs[cell as usize].distance(cells.dirs[other as usize]);
