@@ -57,9 +57,21 @@ const GROWN: f32 = 1.0;
 // Cover from which rain falls.
 const RAINING: f32 = 0.65;
 
+// Width of a texel of the cloud maps.
+fn cloud_texel_km() -> f32 { return 0.5 * PI * body.radius_km / CLOUD_MAP_SIDE; }
+
+fn sky_between(a: Sky, b: Sky, share: f32) -> Sky {
+    return Sky(
+        mix(a.covers, b.covers, share),
+        mix(a.veil, b.veil, share),
+        mix(a.layered, b.layered, share),
+        mix(a.top, b.top, share),
+    );
+}
+
 // `footprint`: size in km below which nothing is resolved.
 fn sky_over(dir: vec3f, footprint: f32) -> Sky {
-    let texel_km = 0.5 * PI * body.radius_km / CLOUD_MAP_SIDE;
+    let texel_km = cloud_texel_km();
     let level = clamp(log2(max(footprint / texel_km, 1e-3)), body.cloud_least_level, CLOUD_MAP_LEVELS - 1.0);
     let ground = textureSampleLevel(cloud_maps, clamped, dir, 0, body.cloud_least_level);
     let carried = drifted(dir) + shifted(dir, texel_km, footprint);

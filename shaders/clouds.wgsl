@@ -84,6 +84,8 @@ const FIRST_PART: f32 = 1.5;
 const SHORTENING: vec2f = vec2f(1.5, 3.0);
 // Halvings of a step to find where a ray enters a cloud: at low quality, at the others.
 const SEARCH: vec2i = vec2i(2, 3);
+// Longest way over which the sky is taken to vary evenly, by its distance; and no longer than a texel of the cloud maps.
+const SHORT_WAY: f32 = 0.25;
 
 // A ray through a layer.
 struct Way {
@@ -214,7 +216,18 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     let high = max(sun_mu, 0.0) + 0.02;
     let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
-    let halvings = select(SEARCH.y, SEARCH.x, frame.pattern_quality == 0.0);
+    let is_fine = frame.pattern_quality > 0.0;
+    let halvings = select(SEARCH.x, SEARCH.y, is_fine);
+    // At low quality, the sky over a short way lies between those over its ends.
+    let span_km = way.to_km - way.from_km;
+    let is_short = !is_fine && span_km < min(cloud_texel_km(), SHORT_WAY * way.from_km);
+    var first_sky: Sky;
+    var last_sky: Sky;
+    if is_short {
+        first_sky = sky_over(normalize(body.eye_km + dir * way.from_km), way.from_km * frame.pixel_rad);
+        last_sky = sky_over(normalize(body.eye_km + dir * way.to_km), way.to_km * frame.pixel_rad);
+        if max(first_sky.covers[way.layer], last_sky.covers[way.layer]) <= 0.0 { return out; }
+    }
     var before = way.from_km;
     var was_empty = true;
     // A ray that leaves the layer by the side where it entered has twice the way, and the grid up to half as many more.
@@ -227,7 +240,12 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         let t = mix(t0, t1, jitter);
         // Steps at the ends are cut short, and blur no less.
         let step_km = max(t1 - t0, (t + grid.scale_km) * (exp2(grid.wanted) - 1.0));
-        let sky_here = sky_over(normalize(body.eye_km + dir * t), t * frame.pixel_rad);
+        var sky_here: Sky;
+        if is_short {
+            sky_here = sky_between(first_sky, last_sky, (t - way.from_km) / span_km);
+        } else {
+            sky_here = sky_over(normalize(body.eye_km + dir * t), t * frame.pixel_rad);
+        }
         var found = Cloud(0.0, 0.0);
         if sky_here.covers[way.layer] > 0.0 { found = cloud_on(way, t, sky_here, step_km); }
         if found.density <= LEAST_DENSITY {
