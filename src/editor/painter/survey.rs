@@ -1,7 +1,7 @@
 //! The shares of the planet's land in each cell of the biome table and in each biome: samples of the evaluator at
 //! directions of equal areas.
 
-use crate::editor::state::surveyor::same_heights;
+use crate::editor::state::surveyor::{Asked, same_heights};
 use crate::planet::Planet;
 use crate::sphere::spread;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
@@ -64,9 +64,10 @@ impl Survey {
 }
 
 /// Whether a survey would find the same: equal tiles, and equal rules from there to the biome.
-pub fn same_survey(a: &Terrain, b: &Terrain) -> bool {
+pub fn same_survey(asked: &Asked, terrain: &Terrain) -> bool {
+    let (a, b) = (&asked.planet, terrain.planet());
     let same_rules = |a: &Planet, b: &Planet| a.biomes == b.biomes && a.climate == b.climate;
-    same_rules(a.planet(), b.planet()) && a.planet().sea_level_m() == b.planet().sea_level_m() && same_heights(a, b)
+    same_rules(a, b) && a.sea_level_m() == b.sea_level_m() && same_heights(asked, terrain)
 }
 
 #[cfg(test)]

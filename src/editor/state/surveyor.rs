@@ -1,15 +1,32 @@
 //! Figures of a whole planet that are found on another thread, and again when the ground changes.
 
+use crate::planet::Planet;
 use crate::terrain::Terrain;
-use std::sync::Arc;
+use crate::terrain::revision::Keys;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Weak};
+
+/// A terrain of which a survey was asked: not itself, so that its world maps end with the planet.
+pub struct Asked {
+    terrain: Weak<Terrain>,
+    /// Its planet.
+    pub planet: Arc<Planet>,
+    /// Its content keys.
+    pub keys: Keys,
+}
+
+impl Asked {
+    fn of(terrain: &Arc<Terrain>) -> Self {
+        Self { terrain: Arc::downgrade(terrain), planet: terrain.planet().clone(), keys: terrain.keys().clone() }
+    }
+}
 
 /// Surveys terrains on another thread, and keeps the newest result.
 pub struct Surveyor<T> {
     terrains: Sender<Arc<Terrain>>,
     answers: Receiver<T>,
-    same: fn(&Terrain, &Terrain) -> bool,
-    asked: Option<Arc<Terrain>>,
+    same: fn(&Asked, &Terrain) -> bool,
+    asked: Option<Asked>,
     found: Option<T>,
 }
 
@@ -18,7 +35,7 @@ impl<T: Send + 'static> Surveyor<T> {
     /// would find the same of two terrains.
     pub fn new(
         survey: fn(&Terrain) -> T,
-        same: fn(&Terrain, &Terrain) -> bool,
+        same: fn(&Asked, &Terrain) -> bool,
         wake: impl Fn() + Send + 'static,
     ) -> Self {
         let (terrains, asked) = channel::<Arc<Terrain>>();
@@ -40,11 +57,11 @@ impl<T: Send + 'static> Surveyor<T> {
 
     /// Asks for a survey of a terrain, unless the newest request was for the same, or its world maps are not final yet.
     pub fn ask(&mut self, terrain: &Arc<Terrain>) {
-        let is_same = |asked: &Arc<Terrain>| Arc::ptr_eq(asked, terrain) || (self.same)(asked, terrain);
+        let is_same = |asked: &Asked| asked.terrain.as_ptr() == Arc::as_ptr(terrain) || (self.same)(asked, terrain);
         if terrain.has_final_maps() && !self.asked.as_ref().is_some_and(is_same) {
             // Fails only if the thread could not be started.
             let _ = self.terrains.send(terrain.clone());
-            self.asked = Some(terrain.clone());
+            self.asked = Some(Asked::of(terrain));
         }
         if let Some(found) = self.answers.try_iter().last() {
             self.found = Some(found);
@@ -58,6 +75,6 @@ impl<T: Send + 'static> Surveyor<T> {
 }
 
 /// Whether two terrains have the same heights.
-pub fn same_heights(a: &Terrain, b: &Terrain) -> bool {
-    !b.keys().changes_since(a.keys()).touches_tiles()
+pub fn same_heights(asked: &Asked, terrain: &Terrain) -> bool {
+    !terrain.keys().changes_since(&asked.keys).touches_tiles()
 }

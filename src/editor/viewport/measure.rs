@@ -8,7 +8,7 @@ use crate::editor::widgets::number::length_text;
 use crate::terrain::Terrain;
 use eframe::egui::{self, Color32, Pos2, Rect, Stroke, pos2, vec2};
 use glam::DVec3;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 /// Places at which the profile has a height.
 const SAMPLES: usize = 256;
@@ -27,7 +27,7 @@ pub(super) struct Measure {
     dragging: bool,
     /// Whether the next click begins another line.
     ended: bool,
-    measured: Option<(Arc<Terrain>, Measured)>,
+    measured: Option<(Weak<Terrain>, Measured)>,
 }
 
 /// What a line measures.
@@ -95,9 +95,9 @@ impl Measure {
         if self.points.len() < 2 {
             return;
         }
-        let known = self.measured.take().filter(|(of, _)| Arc::ptr_eq(of, terrain));
+        let known = self.measured.take().filter(|(of, _)| of.as_ptr() == Arc::as_ptr(terrain));
         let (_, measured) =
-            self.measured.insert(known.unwrap_or_else(|| (terrain.clone(), measure(terrain, &self.points))));
+            self.measured.insert(known.unwrap_or_else(|| (Arc::downgrade(terrain), measure(terrain, &self.points))));
         // Above the scale.
         let corner = ground.rect.left_bottom() + vec2(12.0, -44.0);
         egui::Area::new(egui::Id::unique("measured"))

@@ -9,8 +9,8 @@ use crate::terrain::{Sample, Terrain};
 use crate::tiles::Surface;
 use eframe::egui;
 use glam::DVec3;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Weak};
 
 /// What is known of a place on the ground.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,13 +138,13 @@ pub(super) fn in_view(rect: egui::Rect, pos: egui::Pos2) -> (f64, f64) {
 
 /// The clouds of the newest terrain.
 #[derive(Default)]
-struct Clouds(Option<(Arc<Terrain>, CloudField)>);
+struct Clouds(Option<(Weak<Terrain>, CloudField)>);
 
 impl Clouds {
     fn over(&mut self, terrain: &Arc<Terrain>, dir_planet: DVec3, time_secs: f64) -> Option<CloudCover> {
         terrain.planet().clouds.as_ref()?;
-        let known = self.0.take().filter(|(of, _)| Arc::ptr_eq(of, terrain));
-        let (_, field) = self.0.insert(known.unwrap_or_else(|| (Arc::clone(terrain), CloudField::new(terrain))));
+        let known = self.0.take().filter(|(of, _)| of.as_ptr() == Arc::as_ptr(terrain));
+        let (_, field) = self.0.insert(known.unwrap_or_else(|| (Arc::downgrade(terrain), CloudField::new(terrain))));
         Some(field.cover(dir_planet, time_secs))
     }
 }

@@ -2,7 +2,7 @@
 //! points of the selected edit. A click flies there.
 
 use crate::bake::{self, Bake, Format, Projection, Region};
-use crate::editor::state::surveyor::Surveyor;
+use crate::editor::state::surveyor::{Asked, Surveyor};
 use crate::lod::Camera;
 use crate::planet::GroundEdit;
 use crate::planet::edits::EditPoint;
@@ -186,10 +186,10 @@ impl Map {
 }
 
 /// Whether two terrains have the same map.
-fn same_map(a: &Terrain, b: &Terrain) -> bool {
-    let changes = b.keys().changes_since(a.keys());
+fn same_map(asked: &Asked, terrain: &Terrain) -> bool {
+    let changes = terrain.keys().changes_since(&asked.keys);
     // The ground is seen through the water over it.
-    !changes.touches_tiles() && !changes.contains(Stage::Material) && a.planet().water == b.planet().water
+    !changes.touches_tiles() && !changes.contains(Stage::Material) && asked.planet.water == terrain.planet().water
 }
 
 /// The colours of the ground with shaded relief.
