@@ -84,7 +84,7 @@ const FIRST_PART: f32 = 1.5;
 const SHORTENING: vec2f = vec2f(1.5, 3.0);
 // Halvings of a step to find where a ray enters a cloud: at low quality, at the others.
 const SEARCH: vec2i = vec2i(2, 3);
-// Longest way over which the sky is taken to vary evenly, by its distance; and no longer than a texel of the cloud maps.
+// Longest way over which the sky is taken to vary evenly, by its distance. A texel of the cloud maps is another limit.
 const SHORT_WAY: f32 = 0.25;
 
 // A ray through a layer.

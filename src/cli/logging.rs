@@ -1,5 +1,5 @@
-//! What the program logs: errors on standard error, or what `RUST_LOG` asks for; of the editor also warnings, with the
-//! steps of the program itself, in a file that outlives its window.
+//! What the program logs: errors, and its own warnings, on standard error, or what `RUST_LOG` asks for. The editor also
+//! keeps warnings of all libraries and the steps of the program in a file that outlives its window.
 
 use crate::planet::printable::printable;
 use log::{Level, Log, Metadata, Record};
@@ -26,7 +26,8 @@ impl Logging {
     /// Sets up logging. A program that embeds this one may have a logger already.
     pub(super) fn start() -> Self {
         let kept = Kept::default();
-        let terminal = env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error")).build();
+        let terminal =
+            env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error,tellus=warn")).build();
         let most = terminal.filter().max(Level::Info.to_level_filter());
         if log::set_boxed_logger(Box::new(Both { terminal, file: kept.clone() })).is_ok() {
             log::set_max_level(most);

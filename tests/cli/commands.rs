@@ -257,7 +257,10 @@ fn render_writes_the_same_picture_for_the_same_command() {
 fn render_needs_little_to_be_told_and_cannot_write_everywhere() {
     let folder = folder();
     let path = folder.path().join("a.png");
-    let (status, _, err) = run(&["render", LAYERED, "-o", text_of(&path), "--size", "64x36", "--quality", "low"]);
+    let small = ["render", LAYERED, "-o", text_of(&path), "--size", "64x36", "--quality", "low"];
+    let (status, _, err) = run(&[&small[..], &["--ground-seconds", "0"]].concat());
+    assert!(status == 0 && err.contains("the ground is coarser than the picture shows"), "{err}");
+    let (status, _, err) = run(&small);
     assert!(status == 0, "{err}");
     let (status, _, err) =
         run(&["render", LAYERED, "-o", "no/such/folder/x.png", "--size", "16x9", "--quality", "low"]);

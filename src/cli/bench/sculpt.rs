@@ -26,9 +26,12 @@ const STEP_RAD: f64 = 0.004;
 /// Radius of a stroke, in radii of the planet: strokes cover six tenths of it.
 const RADIUS_RAD: f64 = 0.008;
 /// Height of the eye over the ground in each view, in radii of the planet.
-const ALTITUDES: [f64; 3] = [0.035, 0.15, 0.4];
-/// Size of the pictures that strokes are drawn in.
+/// The third sees about a hundred strokes.
+const ALTITUDES: [f64; 4] = [0.035, 0.15, 0.235, 0.4];
+/// Sizes of the pictures that strokes are drawn in. A software driver takes little time for the pixels of the small one:
+/// it shows what a stroke takes beside them.
 const PICTURE_PX: [u32; 2] = [640, 360];
+const SMALL_PX: [u32; 2] = [64, 36];
 /// Strokes that are added one after the other, and how often the planet is saved.
 const RUNS: usize = 30;
 const SAVES: usize = 5;
@@ -75,7 +78,8 @@ fn measure_on(name: &str, bare: &Planet) -> Result<Value, String> {
     }
     times.sort_by(f64::total_cmp);
     compile_ms.sort_by(f64::total_cmp);
-    let picture_ms = to_picture_ms(&many, view);
+    let picture_ms = to_picture_ms(&many, view, PICTURE_PX);
+    let small_ms = to_picture_ms(&many, view, SMALL_PX);
     let (save_ms, load_ms) = save_and_load_ms(&many)?;
     Ok(json!({
         "planet": name,
@@ -86,6 +90,8 @@ fn measure_on(name: &str, bare: &Planet) -> Result<Value, String> {
         "stroke_compile_ms": median(&compile_ms),
         "stroke_picture_ms": picture_ms.map(|[stroke, _]| stroke),
         "still_picture_ms": picture_ms.map(|[_, still]| still),
+        "stroke_small_picture_ms": small_ms.map(|[stroke, _]| stroke),
+        "still_small_picture_ms": small_ms.map(|[_, still]| still),
         "file_mb": many.to_text().len() as f64 / 1e6,
         "save_ms": save_ms,
         "load_ms": load_ms,
@@ -123,18 +129,18 @@ fn one_more(planet: &Planet) -> impl Iterator<Item = Arc<Planet>> {
 
 /// Milliseconds from one stroke more to its picture, and those of a picture in which nothing changed: medians. `None`
 /// without a GPU.
-fn to_picture_ms(many: &Arc<Planet>, view: View) -> Option<[f64; 2]> {
-    let gpu = Gpu::open(PICTURE_PX).ok()?;
+fn to_picture_ms(many: &Arc<Planet>, view: View, size_px: [u32; 2]) -> Option<[f64; 2]> {
+    let gpu = Gpu::open(size_px).ok()?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).ok()?;
-    let view = View { size_px: PICTURE_PX, quality: Quality::Low, ..view };
+    let view = View { size_px, quality: Quality::Low, ..view };
     let bench = Bench::new(DEFAULT_BUDGET_BYTES);
     let mut picture_secs = |planet: &Arc<Planet>| {
         let start = Instant::now();
         let (_, surface) = bench.settle(planet, &view).and_then(|(secs, _)| Some((secs, bench.surface()?)))?;
         let scene =
             Scene { reuse: Reuse::None, ..Scene::of_planet(&surface, view, planet.star.place(0.0).direction()) };
-        let drawn = gpu
-            .picture(PICTURE_PX, |target| renderer.render(target, &scene).map(drop).map_err(|error| error.to_string()));
+        let drawn =
+            gpu.picture(size_px, |target| renderer.render(target, &scene).map(drop).map_err(|error| error.to_string()));
         drawn.ok().map(|_| start.elapsed().as_secs_f64())
     };
     // The first picture uploads and builds everything.
