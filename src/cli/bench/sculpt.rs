@@ -28,8 +28,8 @@ const RADIUS_RAD: f64 = 0.008;
 /// Height of the eye over the ground in each view, in radii of the planet.
 /// The third sees about a hundred strokes.
 const ALTITUDES: [f64; 4] = [0.035, 0.15, 0.235, 0.4];
-/// Sizes of the pictures that strokes are drawn in. A software driver takes little time for the pixels of the small one:
-/// it shows what a stroke takes beside them.
+/// Sizes of the pictures that strokes are drawn in. The pixels of the small one take a software driver little time: it
+/// shows what a stroke takes beside them.
 const PICTURE_PX: [u32; 2] = [640, 360];
 const SMALL_PX: [u32; 2] = [64, 36];
 /// Strokes that are added one after the other, and how often the planet is saved.
