@@ -89,7 +89,7 @@ impl Shot {
         let after = |share: f64| begun + Duration::from_secs_f64(secs * share);
         let mut surface = build_until(&self.terrain, view, after(MESH_SHARE));
         if !add_detail_until(&mut surface, view, after(1.0)) || !surface.complete {
-            log::warn!("the ground is coarser than the picture shows: {secs} s were not enough");
+            log::warn!("the ground is coarser than the picture shows: {secs} s were not enough; allow more");
         }
         surface
     }

@@ -93,7 +93,6 @@ impl MapStore {
             Ok(()) => self.trim(limit_bytes),
             Err(error) => {
                 let message = format!("{}: {error}; world maps will be solved again", self.folder.display());
-                log::warn!("{message}");
                 *self.problem.lock().unwrap_or_else(PoisonError::into_inner) = Some(message);
             }
         }

@@ -270,11 +270,9 @@ fn render_needs_little_to_be_told_and_cannot_write_everywhere() {
 /// OpenGL draws to too few formats. Whether the machine has it or not, one sentence says what would be right.
 #[test]
 fn without_a_driver_that_will_do_one_sentence_says_what_to_install() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let picture = folder.path().join("picture.png");
-    let output = Command::new(env!("CARGO_BIN_EXE_tellus"))
-        .args(["render", "planets/pallor.ron", "--size", "16x9", "-o"])
-        .arg(&picture)
+    let output = tellus(&["render", "planets/pallor.ron", "--size", "16x9", "-o", text_of(&picture)])
         .env("WGPU_BACKEND", "gl")
         .env_remove("WGPU_ADAPTER_NAME")
         .output()

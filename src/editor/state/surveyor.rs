@@ -3,22 +3,15 @@
 use crate::planet::Planet;
 use crate::terrain::Terrain;
 use crate::terrain::revision::Keys;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Weak};
 
 /// A terrain of which a survey was asked: not itself, so that its world maps end with the planet.
 pub struct Asked {
-    terrain: Weak<Terrain>,
     /// Its planet.
     pub planet: Arc<Planet>,
     /// Its content keys.
     pub keys: Keys,
-}
-
-impl Asked {
-    fn of(terrain: &Arc<Terrain>) -> Self {
-        Self { terrain: Arc::downgrade(terrain), planet: terrain.planet().clone(), keys: terrain.keys().clone() }
-    }
 }
 
 /// Surveys terrains on another thread, and keeps the newest result.
@@ -57,11 +50,12 @@ impl<T: Send + 'static> Surveyor<T> {
 
     /// Asks for a survey of a terrain, unless the newest request was for the same, or its world maps are not final yet.
     pub fn ask(&mut self, terrain: &Arc<Terrain>) {
-        let is_same = |asked: &Asked| asked.terrain.as_ptr() == Arc::as_ptr(terrain) || (self.same)(asked, terrain);
+        // With its own final maps, a planet has one terrain.
+        let is_same = |asked: &Asked| Arc::ptr_eq(&asked.planet, terrain.planet()) || (self.same)(asked, terrain);
         if terrain.has_final_maps() && !self.asked.as_ref().is_some_and(is_same) {
             // Fails only if the thread could not be started.
             let _ = self.terrains.send(terrain.clone());
-            self.asked = Some(Asked::of(terrain));
+            self.asked = Some(Asked { planet: terrain.planet().clone(), keys: terrain.keys().clone() });
         }
         if let Some(found) = self.answers.try_iter().last() {
             self.found = Some(found);
