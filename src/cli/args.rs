@@ -98,6 +98,12 @@ pub(super) fn ground_seconds(text: &str) -> Result<f64, String> {
     number(text, 0.0, 1e6)
 }
 
+/// The memory for the ground of a picture.
+pub(super) fn ground_mib(text: &str) -> Result<u32, String> {
+    let wrong = || "use 16 to 65536, in MiB".to_owned();
+    text.parse().ok().filter(|mib| (16..=65_536).contains(mib)).ok_or_else(wrong)
+}
+
 /// The length of a trial of a system.
 pub(super) fn years(text: &str) -> Result<f64, String> {
     number(text, 0.0, 1e6)

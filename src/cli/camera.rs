@@ -65,6 +65,9 @@ pub(super) struct CameraArgs {
     /// Seconds for building the ground of each picture, which then stays as fine as it is [default: until it is done]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = args::ground_seconds)]
     pub(super) ground_seconds: Option<f64>,
+    /// Memory for the ground of each picture, coarser if more would be needed [default: what the quality takes]
+    #[arg(long, value_name = "MIB", value_parser = args::ground_mib)]
+    pub(super) ground_mib: Option<u32>,
     /// The shaded planet, or a debug view
     #[arg(long, value_enum, default_value_t = DebugView::default())]
     pub(super) view: DebugView,
@@ -109,6 +112,7 @@ impl CameraArgs {
             system: None,
             focuses: false,
             ground_secs: self.ground_seconds,
+            ground_bytes: self.ground_mib.map(|mib| (mib as usize) << 20),
         }
     }
 

@@ -26,8 +26,16 @@ impl Logging {
     /// Sets up logging. A program that embeds this one may have a logger already.
     pub(super) fn start() -> Self {
         let kept = Kept::default();
-        let terminal =
-            env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error,tellus=warn")).build();
+        let mut terminal =
+            env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error,tellus=warn"));
+        if std::env::var_os(env_logger::DEFAULT_FILTER_ENV).is_none() {
+            // As all commands tell what is wrong. Who sets the filter wants to know time and place, too.
+            terminal.format(|out, record| {
+                let kind = if record.level() == Level::Error { "error" } else { "warning" };
+                writeln!(out, "{kind}: {}", printable(&record.args().to_string()))
+            });
+        }
+        let terminal = terminal.build();
         let most = terminal.filter().max(Level::Info.to_level_filter());
         if log::set_boxed_logger(Box::new(Both { terminal, file: kept.clone() })).is_ok() {
             log::set_max_level(most);

@@ -5,7 +5,7 @@ use crate::lod::View;
 use crate::render::{DebugView, Photo, Post, RenderError, Renderer, Scene};
 use crate::sphere::LatLon;
 use crate::terrain::{Revision, Terrain};
-use crate::tiles::{Surface, add_detail, add_detail_until, build_over, build_until};
+use crate::tiles::{Limits, Surface, add_detail_within, build_within};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -41,6 +41,8 @@ pub struct Shot {
     pub focuses: bool,
     /// Seconds for building the ground, which then stays as fine as it is. None: until it is done.
     pub ground_secs: Option<f64>,
+    /// Bytes for the ground, [`Limits::bytes`].
+    pub ground_bytes: Option<usize>,
 }
 
 impl Shot {
@@ -78,17 +80,16 @@ impl Shot {
         photo.take(renderer, &scene, progress)
     }
 
-    /// The ground for a view, in the time that there is.
+    /// The ground for a view, in the time and the memory that there are.
     fn ground(&self, view: &View) -> Surface {
-        let Some(secs) = self.ground_secs else {
-            let mut surface = build_over(&self.terrain, view);
-            add_detail(&mut surface, view);
-            return surface;
-        };
         let begun = Instant::now();
-        let after = |share: f64| begun + Duration::from_secs_f64(secs * share);
-        let mut surface = build_until(&self.terrain, view, after(MESH_SHARE));
-        if !add_detail_until(&mut surface, view, after(1.0)) || !surface.complete {
+        let limits = |share: f64| Limits {
+            until: self.ground_secs.map(|secs| begun + Duration::from_secs_f64(secs * share)),
+            bytes: self.ground_bytes,
+        };
+        let mut surface = build_within(&self.terrain, view, &limits(MESH_SHARE));
+        let has_detail = add_detail_within(&mut surface, view, &limits(1.0));
+        if let (Some(secs), false) = (self.ground_secs, has_detail && surface.complete) {
             log::warn!("the ground is coarser than the picture shows: {secs} s were not enough; allow more");
         }
         surface

@@ -17,6 +17,9 @@ pub const DETAIL_APRON: usize = 2;
 /// Texels along the side of the images of a detail texture.
 pub const DETAIL_IMAGE: usize = DETAIL_SIDE + 2 * DETAIL_APRON;
 
+/// Resident size of a detail texture with rivers and lakes.
+pub(crate) const DETAIL_BYTES: usize = 3 * DETAIL_IMAGE * DETAIL_IMAGE * size_of::<[half::f16; 4]>();
+
 /// The detail texture of a node: the ground at four times the density of its mesh, for shading.
 ///
 /// [`DETAIL_IMAGE`] rows of [`DETAIL_IMAGE`] texels, to be interpolated linearly. Inside the apron of [`DETAIL_APRON`]

@@ -328,9 +328,9 @@ mod tests {
     #[test]
     fn a_panic_gives_up_one_planet_and_is_told() {
         static BROKEN: AtomicBool = AtomicBool::new(true);
-        let refine_or_panic: Refine = |terrain, view, cache, cut, asked, stats, keep_going| {
+        let refine_or_panic: Refine = |terrain, goal, cache, cut, stats, keep_going| {
             assert!(!BROKEN.load(Ordering::Relaxed), "the ground gave way");
-            refine(terrain, view, cache, cut, asked, stats, keep_going)
+            refine(terrain, goal, cache, cut, stats, keep_going)
         };
         let mut worker = Worker::new(BuilderOptions::default());
         worker.refine = refine_or_panic;
@@ -364,11 +364,11 @@ mod tests {
     #[test]
     fn the_games_own_threads_do_the_work_and_rest_when_they_are_told() {
         static STRANGERS: AtomicUsize = AtomicUsize::new(0);
-        let refine_here: Refine = |terrain, view, cache, cut, asked, stats, keep_going| {
+        let refine_here: Refine = |terrain, goal, cache, cut, stats, keep_going| {
             let name = std::thread::current().name().map(str::to_owned);
             let is_own = name.is_some_and(|name| name.starts_with("game-")) && rayon::current_num_threads() == 2;
             STRANGERS.fetch_add(usize::from(!is_own), Ordering::Relaxed);
-            refine(terrain, view, cache, cut, asked, stats, keep_going)
+            refine(terrain, goal, cache, cut, stats, keep_going)
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).thread_name(|i| format!("game-{i}"));
         let options = BuilderOptions::default().pool(Arc::new(pool.build().unwrap()));

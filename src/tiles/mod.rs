@@ -23,6 +23,7 @@ pub use builder::{BuildProgress, Builder, BuilderOptions};
 pub use cache::DEFAULT_BUDGET_BYTES;
 pub use horizon::HorizonWork;
 pub use refine::budget_tiles;
+use refine::{Goal, refine};
 
 pub use stats::{BuildStats, Memory, StageWork};
 
@@ -106,44 +107,54 @@ pub fn build_now(planet: &Arc<Planet>, view: &View) -> Result<Surface, InvalidPl
     let (mut stats, fields) = (BuildStats::default(), CellFields::default());
     let terrain = Arc::new(Terrain::try_new_with(planet.clone(), &fields, &mut stats.maps)?);
     stats.octave_samples = fields.take_octave_samples();
-    Ok(built(&terrain, view, stats, None))
+    Ok(built(&terrain, view, stats, &Limits::default()))
 }
 
 /// The same of a terrain, with the world maps that serve it.
 pub fn build_over(terrain: &Arc<Terrain>, view: &View) -> Surface {
-    built(terrain, view, BuildStats::default(), None)
+    built(terrain, view, BuildStats::default(), &Limits::default())
 }
 
-/// As [`build_over`], as fine as it becomes until a time. The surface has no gaps; whether it is as fine as the view
-/// asks tells [`Surface::complete`]. The coarsest level is built in any case.
-pub fn build_until(terrain: &Arc<Terrain>, view: &View, until: Instant) -> Surface {
-    built(terrain, view, BuildStats::default(), Some(until))
+/// What the ground of a picture may take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Limits {
+    /// When building ends; the coarsest level is built in any case. None: when all is there.
+    pub until: Option<Instant>,
+    /// Bytes of the tiles, of what they are built from, and of their detail textures. The LOD bias rises until they
+    /// fit, down to some tens of tiles. World maps and height pictures are not counted, nor what a renderer copies to
+    /// the GPU. None: what the triangle budget of the quality takes, [`budget_tiles`].
+    pub bytes: Option<usize>,
 }
 
-fn built(terrain: &Arc<Terrain>, view: &View, stats: BuildStats, until: Option<Instant>) -> Surface {
-    let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
+impl Limits {
+    fn leave_time(&self) -> bool {
+        self.until.is_none_or(|until| Instant::now() < until)
+    }
+}
+
+/// As [`build_over`], within limits. The surface has no gaps; whether the time was enough tells [`Surface::complete`].
+pub fn build_within(terrain: &Arc<Terrain>, view: &View, limits: &Limits) -> Surface {
+    built(terrain, view, BuildStats::default(), limits)
+}
+
+fn built(terrain: &Arc<Terrain>, view: &View, stats: BuildStats, limits: &Limits) -> Surface {
+    let cache = cache::Cache::new(limits.bytes.unwrap_or(DEFAULT_BUDGET_BYTES).min(DEFAULT_BUDGET_BYTES));
     cache.serve(terrain);
-    refine::refine(terrain, view, &cache, &mut None, Instant::now(), stats, &|| is_before(until))
+    let goal = Goal::new(view, Instant::now());
+    let goal = limits.bytes.map_or(goal, |bytes| goal.within(bytes));
+    refine(terrain, &goal, &cache, &mut None, stats, &|| limits.leave_time())
 }
 
 /// Computes the horizon angles and detail textures of all tiles that a view shows, and waits for them.
 pub fn add_detail(surface: &mut Surface, view: &View) {
-    find_until(surface, view, None);
+    add_detail_within(surface, view, &Limits::default());
 }
 
-/// As [`add_detail`], nearest tiles first, until a time. Whether all of them are there.
-pub fn add_detail_until(surface: &mut Surface, view: &View, until: Instant) -> bool {
-    find_until(surface, view, Some(until))
-}
-
-fn find_until(surface: &mut Surface, view: &View, until: Option<Instant>) -> bool {
-    let in_time = || is_before(until);
+/// As [`add_detail`], nearest tiles first, while the limits leave time. Whether all of them are there.
+pub fn add_detail_within(surface: &mut Surface, view: &View, limits: &Limits) -> bool {
+    let in_time = || limits.leave_time();
     horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &in_time, &in_time);
     find_detail(surface, view, &|_, _| {}, &in_time, &in_time)
-}
-
-fn is_before(until: Option<Instant>) -> bool {
-    until.is_none_or(|until| Instant::now() < until)
 }
 
 /// Computes the detail textures of the tiles that a view shows, nearest tiles first, while `keep_going` says yes; a

@@ -9,7 +9,7 @@ use super::sew::Seams;
 use super::stats::{BuildStats, Work};
 use super::{Leaf, Surface};
 use crate::lod::cull::lowest_radius_m;
-use crate::lod::tile::{DetailTile, TILE_QUADS, Tile};
+use crate::lod::tile::{DETAIL_BYTES, DetailTile, TILE_QUADS, TILE_VERTICES, Tile, Vertex};
 use crate::lod::{Quality, Ranges, Selection, View};
 use crate::planet::Key;
 use crate::sphere::{Edge, NodeId};
@@ -52,29 +52,55 @@ const RATIONED: u32 = MAX_BIAS + 1;
 /// Tiles that a split adds.
 const MORE_TILES: usize = 3;
 
+/// What a surface is built for.
+#[derive(Clone, Copy)]
+pub(crate) struct Goal {
+    /// The view.
+    pub(crate) view: View,
+    /// The most tiles that the picture may show.
+    budget: usize,
+    /// When it was asked for.
+    asked: Instant,
+}
+
+impl Goal {
+    /// A surface for a view, within the triangle budget of its quality.
+    pub(crate) fn new(view: &View, asked: Instant) -> Self {
+        Self { view: *view, budget: budget_tiles(view.quality, view.size_px), asked }
+    }
+
+    /// The same with tiles and detail textures that take no more than some bytes.
+    pub(crate) fn within(self, bytes: usize) -> Self {
+        Self { budget: self.budget.min(bytes / BYTES_PER_SEEN_TILE), ..self }
+    }
+}
+
+/// Memory for each tile that a picture shows: its detail texture and, because about as many tiles lie outside the
+/// picture and a third as many are their ancestors, three meshes.
+const BYTES_PER_SEEN_TILE: usize = 3 * TILE_VERTICES * size_of::<Vertex>() + DETAIL_BYTES;
+
 /// Builds the tiles of a view. `keep_going` is asked before each layer of each tile; once it says no, no finer level is
 /// begun, but the coarsest level is always built. Tiles are taken from `cache` and stored there. `before` is the last
-/// finished LOD cut, and becomes the new one. `stats` continues from earlier slices of the request made at `asked`.
+/// finished LOD cut, and becomes the new one. `stats` continues from earlier slices of the request.
 pub(crate) fn refine(
     terrain: &Arc<Terrain>,
-    view: &View,
+    goal: &Goal,
     cache: &Cache,
     before: &mut Option<Cut>,
-    asked: Instant,
     mut stats: BuildStats,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Surface {
     profiling::scope!("refine");
     let begun = Instant::now();
+    let Goal { ref view, budget, asked } = *goal;
     let lowest_radius_m = lowest_radius_m(terrain);
     let heights = terrain.tile_keys().heights;
     let start = before.as_ref().filter(|cut| cut.heights == heights && is_near(&cut.view, view, lowest_radius_m));
     let mut builder = LevelBuilder { terrain, cache, asked, stats: &mut stats, secs: 0.0 };
-    let budget = budget_tiles(view.quality, view.size_px);
     let mut choose = |bias: u32| {
         let ranges = Ranges::new(view, terrain.planet().radius_m(), bias_factor(bias));
         let selection = Selection::new(view, &ranges, lowest_radius_m, start.map(|cut| &cut.split));
-        choose(&mut builder, &selection, (ranges, bias), view, keep_going)
+        choose(&mut builder, &selection, (ranges, bias), goal, keep_going)
     };
     let choice = within_budget(&mut choose, budget, start.map_or(0, |cut| cut.bias));
     // Splits forced by neighbours. They are few and prevent cracks, so they are never cut short.
@@ -172,13 +198,13 @@ fn choose(
     builder: &mut LevelBuilder<'_>,
     selection: &Selection<'_>,
     (ranges, bias): (Ranges, u32),
-    view: &View,
+    goal: &Goal,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Choice {
-    let (cache, budget) = (builder.cache, budget_tiles(view.quality, view.size_px));
+    let (cache, budget) = (builder.cache, goal.budget);
     let mut choice =
         Choice { ranges, bias, split: HashSet::new(), shaded_finer: HashSet::new(), seen: 0, complete: true };
-    let eye = view.camera.position_planet_m;
+    let eye = goal.view.camera.position_planet_m;
     let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
     let mut level: Vec<NodeId> = NodeId::roots().to_vec();
     builder.build(&level, &|| true);

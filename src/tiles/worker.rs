@@ -4,9 +4,8 @@ use super::BuilderOptions;
 use super::builder::{Request, Shared};
 use super::cache::Cache;
 use super::horizon::HorizonFinder;
-use super::refine::{Cut, refine};
+use super::refine::{Cut, Goal, refine};
 use super::{BuildStats, Surface, find_detail};
-use crate::lod::View;
 use crate::lod::tile::{DetailTile, Tile};
 use crate::planet::{InvalidPlanet, Planet};
 use crate::terrain::Terrain;
@@ -29,7 +28,7 @@ const NEXT_SLICE: Duration = Duration::from_millis(80);
 
 /// The function that builds tiles; tests replace it.
 pub(super) type Refine =
-    fn(&Arc<Terrain>, &View, &Cache, &mut Option<Cut>, Instant, BuildStats, &(dyn Fn() -> bool + Sync)) -> Surface;
+    fn(&Arc<Terrain>, &Goal, &Cache, &mut Option<Cut>, BuildStats, &(dyn Fn() -> bool + Sync)) -> Surface;
 
 /// State of the worker thread.
 pub(super) struct Worker {
@@ -183,8 +182,8 @@ impl Worker {
             Some(complete) => complete,
             None => {
                 let tiles_before = work.stats.tiles_built;
-                let (cut, stats) = (&mut work.cut, work.stats);
-                let mut surface = (self.refine)(&terrain, view, &self.cache, cut, request.asked, stats, &keep_going);
+                let (cut, stats, goal) = (&mut work.cut, work.stats, Goal::new(view, request.asked));
+                let mut surface = (self.refine)(&terrain, &goal, &self.cache, cut, stats, &keep_going);
                 surface.complete &= terrain.has_final_maps();
                 work.stats = surface.stats;
                 // Show the tiles before spending time on their detail.

@@ -44,6 +44,7 @@ fn wrong_usage_is_status_2_and_says_what_would_be_right() {
         (vec!["render", LAYERED, "-o", "x.png", "--size", "0x9"], "each 1 to 32768, such as 1280x720"),
         (vec!["render", LAYERED, "-o", "x.png", "--samples", "40"], "use 1 to 16"),
         (vec!["render", LAYERED, "-o", "x.png", "--ground-seconds", "-1"], "use 0 to 1000000"),
+        (vec!["render", LAYERED, "-o", "x.png", "--ground-mib", "8"], "use 16 to 65536, in MiB"),
         (vec!["render", LAYERED, "-o", "x.png", "--white", "500"], "use 2000 to 25000"),
         (vec!["render", LAYERED, "-o", "x.png", "--vignette", "2"], "use 0 to 1"),
         (vec!["render", LAYERED, "-o", "x.png", "--aperture", "1"], "--focus <METRES>"),
@@ -259,7 +260,9 @@ fn render_needs_little_to_be_told_and_cannot_write_everywhere() {
     let path = folder.path().join("a.png");
     let small = ["render", LAYERED, "-o", text_of(&path), "--size", "64x36", "--quality", "low"];
     let (status, _, err) = run(&[&small[..], &["--ground-seconds", "0"]].concat());
-    assert!(status == 0 && err.contains("the ground is coarser than the picture shows"), "{err}");
+    assert!(status == 0 && err.starts_with("warning: the ground is coarser than the picture shows"), "{err}");
+    let (status, _, err) = run(&[&small[..], &["--ground-mib", "16"]].concat());
+    assert!(status == 0 && err.is_empty(), "{err}");
     let (status, _, err) = run(&small);
     assert!(status == 0, "{err}");
     let (status, _, err) =

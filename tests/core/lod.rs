@@ -15,7 +15,9 @@ use tellus::lod::{Camera, Culling, Quality, Selection, Tile, Vertex, View, openi
 use tellus::planet::{Fbm, Layer, Planet, Shape, random, shipped};
 use tellus::sphere::{Edge, LatLon};
 use tellus::terrain::Terrain;
-use tellus::tiles::{Surface, add_detail_until, budget_tiles, build_now, build_over, build_until, lowest_radius_m};
+use tellus::tiles::{
+    Limits, Surface, add_detail_within, budget_tiles, build_now, build_over, build_within, lowest_radius_m,
+};
 
 /// A camera 2 m to three radii above the ground, in any direction.
 fn any_view(dice: &mut Dice, terrain: &Terrain, size_px: [u32; 2]) -> View {
@@ -327,7 +329,6 @@ fn a_view_never_shows_more_triangles_than_its_quality_allows() {
     }
 }
 
-/// Walls everywhere: even the greatest LOD bias asks for more tiles than the budget has.
 #[test]
 fn ground_that_runs_out_of_time_is_coarser_and_without_gaps() {
     let planet = Arc::new(rough());
@@ -342,12 +343,12 @@ fn ground_that_runs_out_of_time_is_coarser_and_without_gaps() {
     let covered =
         |surface: &Surface| surface.leaves.iter().map(|l| 0.25_f64.powi(i32::from(l.tile.id.level))).sum::<f64>();
     for secs in [0.0, 0.02, 3600.0] {
-        let until = Instant::now() + Duration::from_secs_f64(secs);
-        let mut surface = build_until(&terrain, &view, until);
+        let limits = Limits { until: Some(Instant::now() + Duration::from_secs_f64(secs)), bytes: None };
+        let mut surface = build_within(&terrain, &view, &limits);
         meet(&surface).unwrap();
         assert_eq!(covered(&surface), 6.0);
         assert!(surface.leaves.len() <= whole.leaves.len());
-        let has_detail = add_detail_until(&mut surface, &view, until);
+        let has_detail = add_detail_within(&mut surface, &view, &limits);
         match secs {
             0.0 => assert!(!surface.complete && !has_detail && surface.leaves.len() < 100, "{}", surface.leaves.len()),
             3600.0 => assert!(surface.complete && has_detail && ids(&surface) == ids(&whole)),
@@ -356,6 +357,34 @@ fn ground_that_runs_out_of_time_is_coarser_and_without_gaps() {
     }
 }
 
+#[test]
+fn ground_that_runs_out_of_memory_is_coarser_and_without_gaps() {
+    let terrain = Arc::new(Terrain::try_new(Arc::new(rough())).unwrap());
+    let place = LatLon::from_degrees(12.0, 40.0);
+    let eye_m = terrain.planet().radius_m() + terrain.height_m(place.direction()) + 2.0;
+    let camera = Camera::over(place, eye_m, 0.4, -0.1, Camera::DEFAULT_FOV_Y_RAD);
+    let view = View { camera, size_px: [1280, 720], quality: Quality::High };
+    let mut tiles_before = 0;
+    for mib in [16, 64, 256] {
+        let limits = Limits { until: None, bytes: Some(mib << 20) };
+        let mut surface = build_within(&terrain, &view, &limits);
+        assert!(add_detail_within(&mut surface, &view, &limits) && surface.complete);
+        meet(&surface).unwrap();
+        let details: HashMap<_, _> = surface
+            .leaves
+            .iter()
+            .filter_map(|leaf| leaf.detail.as_ref())
+            .map(|detail| (detail.id, detail.bytes()))
+            .collect();
+        let tiles: usize = surface.leaves.iter().map(|leaf| size_of_val(&*leaf.tile.vertices)).sum();
+        let bytes = tiles + details.values().sum::<usize>();
+        assert!(bytes < mib << 20 && bytes > mib << 18, "{bytes} bytes in {mib} MiB");
+        assert!(surface.leaves.len() > 2 * tiles_before, "{mib} MiB: {} tiles", surface.leaves.len());
+        tiles_before = surface.leaves.len();
+    }
+}
+
+/// Walls everywhere: even the greatest LOD bias asks for more tiles than the budget has.
 #[test]
 fn ground_rugged_beyond_measure_stays_within_the_budget() {
     let shape = Shape::Fbm(Fbm { wavelength_km: 2.0, octaves: 18, gain: 0.9, ..Fbm::default() });

@@ -88,8 +88,8 @@ fn event(harness: &mut Editor, dice: &mut Dice) {
     harness.step();
 }
 
-/// A new document with its ground built, and nothing open over it.
-fn begin_again(harness: &mut Editor) {
+/// A new document with its ground built, and nothing open over it. Whether the heap came to rest.
+fn begin_again(harness: &mut Editor) -> bool {
     for _ in 0..12 {
         harness.key_press(egui::Key::Escape);
         harness.state_mut().push(Action::DismissMessage);
@@ -110,28 +110,41 @@ fn begin_again(harness: &mut Editor) {
             before = now;
         }
         if quiet == 200 {
-            return;
+            return true;
         }
     }
+    false
 }
 
-/// Sends events. `looked` is told how many there were and the heap, after the warm-up.
-fn send_events(count: usize, seed: u64, mut looked: impl FnMut(usize, usize)) {
+/// What the heap depends on.
+fn circumstances(harness: &Editor) -> String {
+    let app = harness.state();
+    let (settings, memory) = (app.viewport().settings, app.viewport().memory());
+    let (tiles_mib, system) = (memory.used_bytes >> 20, app.system().is_some());
+    format!(
+        "{tiles_mib} MiB of tiles, {:?} quality, {:?}, playing {}, system {system}",
+        settings.quality, settings.debug_view, settings.playing
+    )
+}
+
+/// Sends events. After the warm-up, `looked` is told how many there were, the heap, and what it depends on.
+fn send_events(count: usize, seed: u64, mut looked: impl FnMut(usize, usize, String)) {
     let mut harness = editor(vec![]);
     harness.state_mut().viewport_mut().settings.cache_mib = TILES_MIB;
     let mut dice = Dice(seed);
     for number in 1..=count {
         event(&mut harness, &mut dice);
         if number >= WARM_UP && number % BLOCK == 0 {
-            begin_again(&mut harness);
-            looked(number, bytes_in_use());
+            let rests = begin_again(&mut harness);
+            let bytes = bytes_in_use();
+            looked(number, bytes, format!("{}, at rest: {rests}", circumstances(&harness)));
         }
     }
 }
 
 #[test]
 fn random_events_do_not_end_the_editor() {
-    send_events(500, 0x51ed_270b, |_, _| {});
+    send_events(500, 0x51ed_270b, |_, _, _| {});
 }
 
 #[test]
@@ -146,8 +159,8 @@ fn memory_levels_off_over_twenty_thousand_random_events() {
         return;
     }
     let mut heaps = Vec::new();
-    send_events(EVENTS, 0x2545_f491, |number, bytes| {
-        println!("after {number} events: {} KiB of heap", bytes >> 10);
+    send_events(EVENTS, 0x2545_f491, |number, bytes, circumstances| {
+        println!("after {number} events: {} KiB of heap; {circumstances}", bytes >> 10);
         heaps.push(bytes);
     });
     let growth = heaps.iter().fold(0, |most, bytes| most.max(*bytes)) as f64 / heaps[0] as f64;

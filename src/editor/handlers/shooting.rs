@@ -66,6 +66,7 @@ fn sequence(state: &State, subject: Subject, path: &Path) -> Result<Sequence, St
         system: state.viewport.in_system(),
         focuses: photo.focus_m.is_none(),
         ground_secs: None,
+        ground_bytes: None,
     };
     match subject {
         Subject::Picture => Ok(Sequence::picture(shot, path.to_owned(), kind)),
