@@ -8,6 +8,8 @@ struct Exposure {
     ev: f32,
     // Stops by which the brightest part of the picture exceeds white (tone.wgsl)
     beyond_ev: f32,
+    // Stops by which dark parts of the picture are lifted (tone.wgsl)
+    fill_ev: f32,
 }
 
 @group(0) @binding(0) var<storage, read_write> bins: array<u32, COUNTERS>;
@@ -55,6 +57,13 @@ const DUSK_SKY_SHARE: f32 = 0.07;
 const DUSK_SKY_EV: f32 = -1.0;
 const FOLLOWED_DUSK_SKY: f32 = 0.5;
 const DUSK_FROM_EV: vec2f = vec2f(2.0, 4.0);
+// Fill: dark ground before a bright sky, such as dust around a low sun, is lifted as by a graduated filter. The level in
+// stops of the median of the ground from which on it is, the share of what is lacking, the most stops, and the levels of
+// the sky (exceeded by DUSK_SKY_SHARE of the picture) over which it begins.
+const FILL_BELOW_EV: f32 = -3.7;
+const FOLLOWED_FILL: f32 = 0.9;
+const MOST_FILL_EV: f32 = 2.3;
+const FILL_SKY_EV: vec2f = vec2f(-3.0, -1.5);
 const LIFTED_HIGHLIGHT: f32 = 0.3;
 const LIFTED_SNOW: f32 = 1.0;
 // Share of white pixels at which the lift changes from that for ground to that for snow.
@@ -119,6 +128,16 @@ fn of_ground(unlimited_ev: f32, pixels: f32) -> f32 {
     return mix(LEAST_EV, ev, smoothstep(GROUND_SHARE.x, GROUND_SHARE.y, counted / pixels));
 }
 
+// Stops by which dark parts are lifted at an exposure. `pixels`: count of all.
+fn fill_at(ev: f32, pixels: f32) -> f32 {
+    var counted = 0.0;
+    for (var i = 0u; i < METER_BINS; i++) { counted += f32(bins[GROUND + i]); }
+    let lacking = FILL_BELOW_EV - (stops(bin_below(0.5 * counted, 0u, GROUND)) + ev);
+    let sky = smoothstep(FILL_SKY_EV.x, FILL_SKY_EV.y, sky_exceeded_by(DUSK_SKY_SHARE * pixels) + ev);
+    let there = smoothstep(GROUND_SHARE.x, GROUND_SHARE.y, counted / pixels);
+    return clamp(FOLLOWED_FILL * lacking, 0.0, MOST_FILL_EV) * sky * there;
+}
+
 @compute @workgroup_size(1)
 fn compute() {
     var all = 0.0;
@@ -167,6 +186,8 @@ fn compute() {
     }
     let beyond_ev = clamp(top + ev - WHITE_EV, 0.0, MOST_BEYOND_EV);
     exposure.beyond_ev += clamp((beyond_ev - exposure.beyond_ev) * step.share, -step.most_ev, step.most_ev);
+    let fill_ev = fill_at(ev, pixels);
+    exposure.fill_ev += clamp((fill_ev - exposure.fill_ev) * step.share, -step.most_ev, step.most_ev);
     exposure.ev += clamp((ev - exposure.ev) * step.share, -step.most_ev, step.most_ev);
     exposure.factor = exp2(exposure.ev);
     for (var i = 0u; i < COUNTERS; i++) { bins[i] = 0u; }

@@ -2,6 +2,13 @@
 // curves for the CPU, with their sources.
 #include "math.wgsl"
 
+// Factor on exposed radiance of a luminance: dark parts are lifted by some stops, bright ones stay.
+// The product rises with the luminance up to a fill of 3 stops.
+fn fill(lightness: f32, fill_ev: f32) -> f32 {
+    let share = lightness / FILL_HALF;
+    return 1.0 + (exp2(fill_ev) - 1.0) / (1.0 + share * share);
+}
+
 // Curve from 0 with slope 1 to 1 at infinity; the greater the power, the sharper the bend.
 fn bend(x: vec3f, power: f32) -> vec3f { return x / pow(1.0 + pow(x, vec3f(power)), vec3f(1.0 / power)); }
 

@@ -4,7 +4,8 @@
 #include "tone.wgsl"
 
 @group(1) @binding(0) var hdr: texture_2d<f32>;
-// x: metered factor on radiance, 1 for manual exposure; z: stops by which highlights exceed white
+// x: metered factor on radiance, 1 for manual exposure; z: stops by which highlights exceed white; w: stops by which
+// dark parts are lifted
 @group(1) @binding(1) var<uniform> metered: vec4f;
 // Square roots of the light of stars
 @group(1) @binding(2) var stars: texture_2d<f32>;
@@ -39,7 +40,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let starlight = clamp(metered.x / STARS_IN_FULL, STARS_IN_SUNLIGHT, 1.0);
     let exposed = (radiance * frame.white * metered.x + points * points * starlight) * frame.exposure;
     let at = (position.xy / frame.still_scale - frame.origin_px) / frame.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
-    let light = exposed * (1.0 - frame.bloom) + scattered(at);
-    let shown = toned(light * shaded_by_lens(at), frame.tone, metered.z);
+    let light = (exposed * (1.0 - frame.bloom) + scattered(at)) * shaded_by_lens(at);
+    let shown = toned(light * fill(luminance(light), metered.w), frame.tone, metered.z);
     return vec4f(shown, sqrt(max(luminance(shown), 0.0)));
 }

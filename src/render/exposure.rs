@@ -31,6 +31,8 @@ pub struct Metered {
     /// Stops by which the highlights exceed white at that exposure: for them the curve of
     /// [`Tone::AgX`](super::Tone::AgX) bends gently.
     pub beyond_ev: f64,
+    /// Stops by which dark parts are lifted before the curve: ground before a bright sky at dusk.
+    pub fill_ev: f64,
 }
 
 impl Metering {
@@ -78,7 +80,8 @@ pub(crate) struct ExposurePass {
 /// Exposure of one view, on the GPU.
 pub(crate) struct Exposure {
     bins: wgpu::Buffer,
-    /// Three floats: factor on radiance, its base-2 logarithm (EV), and stops by which highlights exceed white.
+    /// Four floats: factor on radiance, its base-2 logarithm (EV), stops by which highlights exceed white, and stops by
+    /// which dark parts are lifted.
     pub(crate) result: wgpu::Buffer,
     step: wgpu::Buffer,
 }
@@ -115,8 +118,8 @@ impl ExposurePass {
         metering: Metering,
     ) {
         if let Some(fixed) = metering.fixed() {
-            let [ev, beyond_ev] = [fixed.ev, fixed.beyond_ev].map(|ev| ev as f32);
-            queue.write_buffer(&of.result, 0, bytemuck::cast_slice(&[ev.exp2(), ev, beyond_ev, 0.0]));
+            let [ev, beyond_ev, fill_ev] = [fixed.ev, fixed.beyond_ev, fixed.fill_ev].map(|ev| ev as f32);
+            queue.write_buffer(&of.result, 0, bytemuck::cast_slice(&[ev.exp2(), ev, beyond_ev, fill_ev]));
             return;
         }
         let [x, y, width, height] = viewport_px;

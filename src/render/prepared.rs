@@ -284,9 +284,9 @@ impl<'r> PreparedFrame<'r> {
         pass.draw(device, encoder, of, composite, self.plan.viewport_px, self.plan.metering);
     }
 
-    /// The exposure that was metered: a uniform and storage buffer of three `f32`, the factor on radiance, its
-    /// logarithm to base 2, and the stops by which highlights exceed white ([`super::Metered`]). With
-    /// [`Metering::Manual`] they are 1, 0 and 0.
+    /// The exposure that was metered: a uniform and storage buffer of four `f32`, the factor on radiance, its
+    /// logarithm to base 2, the stops by which highlights exceed white, and those by which dark parts are lifted
+    /// ([`super::Metered`]). With [`Metering::Manual`] they are 1 and zeros.
     pub fn exposure(&self) -> &wgpu::Buffer {
         &self.view.exposure.result
     }

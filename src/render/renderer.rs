@@ -391,7 +391,7 @@ impl Renderer {
         self.queue.submit([encoder.finish()]);
         let bytes = gpu::read(&self.device, &buffer)?;
         let value = |bytes: &[u8]| f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
-        Ok(Metered { ev: value(&bytes[4..]), beyond_ev: value(&bytes[8..]) })
+        Ok(Metered { ev: value(&bytes[4..]), beyond_ev: value(&bytes[8..]), fill_ev: value(&bytes[12..]) })
     }
 
     /// Group 0 of a frame and a body.

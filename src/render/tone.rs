@@ -46,8 +46,10 @@ const AGX_GENTLER: f64 = 1.5;
 const AGX_KEPT: f64 = 0.5;
 /// Factor on the difference from grey.
 const AGX_SATURATION: f64 = 0.92;
+/// Luminance at which half of the fill is left: [`super::Metered::fill_ev`].
+const FILL_HALF: f64 = 0.08;
 /// The constants of the curves with their names in `tone.wgsl`.
-pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 13] {
+pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 14] {
     let matrix = |rows: &[[f64; 3]; 3]| Box::new(DMat3::from_cols_array_2d(rows).transpose());
     [
         ("AGX_IN", matrix(&AGX_IN)),
@@ -62,6 +64,7 @@ pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 13] {
         ("AGX_LONG_SHOULDER", Box::new(AGX_LONG_SHOULDER)),
         ("AGX_GENTLER", Box::new(AGX_GENTLER)),
         ("AGX_KEPT", Box::new(AGX_KEPT)),
+        ("FILL_HALF", Box::new(FILL_HALF)),
         ("AGX_SATURATION", Box::new(AGX_SATURATION)),
     ]
 }

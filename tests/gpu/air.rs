@@ -230,7 +230,7 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
             let sun = LatLon::from_degrees(5.0, 10.0 + east).direction();
             let mut scene = frame_of(&surface, &planet, view, sun);
             scene.post.exposure_ev = exposure_ev;
-            gpu.post.metering = Metering::Fixed(Metered { ev: 0.0, beyond_ev });
+            gpu.post.metering = Metering::Fixed(Metered { ev: 0.0, beyond_ev, fill_ev: 0.0 });
             let drawn = gpu.draw(&scene);
             let (_, pixels) = gpu.renderer.radiance().unwrap();
             for (pixel, shown) in pixels.iter().zip(drawn.chunks(4)) {

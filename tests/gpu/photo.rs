@@ -22,7 +22,7 @@ fn sharpness(pixels: &[[f32; 3]], width: usize) -> f64 {
 fn wide(draw: impl FnOnce(Scene<'_>)) {
     of(&Arc::new(Planet { clouds: None, ..earth() }), [2200, 40], 3e5, |mut scene| {
         scene.post.smooth_edges = false;
-        scene.post.metering = Metering::Fixed(Metered { ev: -1.0, beyond_ev: 1.0 });
+        scene.post.metering = Metering::Fixed(Metered { ev: -1.0, beyond_ev: 1.0, fill_ev: 0.0 });
         draw(scene);
     });
 }

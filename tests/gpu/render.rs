@@ -8,7 +8,7 @@ use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::param::Stage;
 use tellus::planet::{Clouds, Fbm, Layer, Planet, Shape};
-use tellus::render::{BodyId, DebugView, Metering, RenderError, ViewId};
+use tellus::render::{BodyId, DebugView, Metered, Metering, RenderError, ViewId};
 use tellus::sphere::LatLon;
 
 /// Poses from space to the ground, by day, at dusk and at night: altitude, pitch, the sun's longitude.
@@ -210,6 +210,34 @@ fn a_dusty_sky_around_a_low_star_keeps_its_colour() {
         };
         let (burnt, bright, black) = (share(&|l| l > 3 * 250), share(&|l| l > 3 * 120), share(&|l| l < 3 * 14));
         assert!(burnt < 0.01 && bright > 0.15 && black < 0.05, "{quality:?}, {sun_lon}: {burnt} {bright} {black}");
+    }
+}
+
+/// As by a graduated filter: the sky stays as it is, and neither daylight nor night nor a view from space has any.
+#[test]
+fn dark_ground_before_a_bright_sky_is_lifted() {
+    let planet = Arc::new(preset("cinnabar.ron"));
+    let mut gpu = gpu();
+    let draw = |gpu: &mut Gpu, altitude_m: f64, pitch_deg: f64, sun_lon: f64, metering: Metering| {
+        gpu.post.metering = metering;
+        let camera = camera(&planet, 5.0, 60.0, altitude_m, 90.0, pitch_deg);
+        let view = View { camera, size_px: [96, 54], quality: Quality::Low };
+        let surface = surface_of(&planet, &view);
+        let light =
+            lights(&gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(0.0, sun_lon).direction())));
+        (light, gpu.renderer.metered(ViewId::default()).unwrap())
+    };
+    let (dusk, metered) = draw(&mut gpu, 200.0, 3.0, 146.0, Metering::Instant);
+    let (unfilled, _) = draw(&mut gpu, 200.0, 3.0, 146.0, Metering::Fixed(Metered { fill_ev: 0.0, ..metered }));
+    let mean = |light: &[u32]| light.iter().sum::<u32>() as f64 / light.len() as f64 / 3.0;
+    let (sky, ground) = (..8 * 96, 27 * 96..);
+    let raised = [mean(&dusk[ground.clone()]), mean(&unfilled[ground])];
+    assert!(metered.fill_ev > 1.0 && raised[0] > 1.5 * raised[1] && raised[0] > 35.0, "{metered:?} {raised:?}");
+    let [with, without] = [mean(&dusk[sky.clone()]), mean(&unfilled[sky])];
+    assert!((0.0..6.0).contains(&(with - without)), "{with} {without}");
+    for (altitude_m, pitch_deg, sun_lon) in [(200.0, 3.0, 60.0), (200.0, 3.0, 190.0), (3e6, -60.0, 146.0)] {
+        let (_, metered) = draw(&mut gpu, altitude_m, pitch_deg, sun_lon, Metering::Instant);
+        assert!(metered.fill_ev < 0.1, "{altitude_m} m, sun {sun_lon}: {metered:?}");
     }
 }
 
