@@ -39,6 +39,13 @@ fn floe_at(at: vec3f, grid: f32, seed: u32) -> vec2f {
     return vec2f(second - nearest.x, nearest.y);
 }
 
+// Share of a pixel that the lead between two floes covers. All but the pixel's `width` in differences of the distances
+// to both floes, which change by twice the way. A lead thinner than a pixel is a faint line, not a row of dots.
+fn lead_share(difference: f32, lead: f32, width: f32) -> f32 {
+    let half_pixel = 1.5 * width + 0.005;
+    return max(min(difference + half_pixel, lead) - max(difference - half_pixel, -lead), 0.0) / (2.0 * half_pixel);
+}
+
 // How much warmer fresh water freezes than that of the sea, °C.
 const FRESH_WARMER_C: f32 = 1.9;
 // Plates between the cracks of lake ice, to a width of the greatest floe.
@@ -93,7 +100,7 @@ fn ice_at(water: Water, rel_m: vec3f, up: vec3f, footprint_m: f32, variation: f3
         let at = (body.floe_eye + rel_m * body.floes_per_m) * scale + bend;
         let floe = floe_at(at, FLOE_GRID * scale, size + 1u);
         let lead = mix(0.16, 0.022, closed) * (0.4 + 1.2 * fract(floe.y * 13.0));
-        let edge = smoothstep(lead - width_cells, lead + width_cells + 0.01, floe.x);
+        let edge = 1.0 - lead_share(floe.x, lead, width_cells);
         // Whether the floe is there at all.
         let there = smoothstep(-0.02, 0.02, closed * 1.12 - floe.y);
         share *= mix(1.0, edge * there, seen);

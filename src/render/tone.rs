@@ -47,7 +47,7 @@ const AGX_KEPT: f64 = 0.5;
 /// Factor on the difference from grey.
 const AGX_SATURATION: f64 = 0.92;
 /// Luminance at which half of the fill is left: [`super::Metered::fill_ev`].
-const FILL_HALF: f64 = 0.08;
+const FILL_HALF: f64 = 0.05;
 /// The constants of the curves with their names in `tone.wgsl`.
 pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 14] {
     let matrix = |rows: &[[f64; 3]; 3]| Box::new(DMat3::from_cols_array_2d(rows).transpose());
