@@ -50,16 +50,22 @@ fn all_is_dark(h: f32, sun_mu: f32) -> bool {
     return asin(sun_mu) < -dips - max(active_sun.radius_rad, 0.0015) - 0.02;
 }
 
-// LUTs have most columns around the terminator: at this cosine of the sun to the zenith, a quarter as many as there.
+// LUTs have most columns around the terminator: at these cosines of the sun to the zenith, by day and in the planet's
+// shadow, a quarter as many as there.
+const DAYLIGHT: f32 = 0.3;
 const TWILIGHT: f32 = 0.15;
 
 // Where a cosine of the sun to the zenith lies between the first column of a LUT (0) and the last one (1).
-fn unit_of_sun(mu: f32) -> f32 { return 0.5 + 0.5 * (1.0 + TWILIGHT) * mu / (abs(mu) + TWILIGHT); }
+fn unit_of_sun(mu: f32) -> f32 {
+    let bend = select(TWILIGHT, DAYLIGHT, mu >= 0.0);
+    return 0.5 + 0.5 * (1.0 + bend) * mu / (abs(mu) + bend);
+}
 
 // The inverse of unit_of_sun.
 fn sun_cosine_at(x: f32) -> f32 {
-    let y = (2.0 * x - 1.0) / (1.0 + TWILIGHT);
-    return clamp(TWILIGHT * y / (1.0 - abs(y)), -1.0, 1.0);
+    let bend = select(TWILIGHT, DAYLIGHT, x >= 0.5);
+    let y = (2.0 * x - 1.0) / (1.0 + bend);
+    return clamp(bend * y / (1.0 - abs(y)), -1.0, 1.0);
 }
 
 // Scales the dim light of deep twilight into the range of 16-bit floats.
@@ -112,18 +118,11 @@ fn scattered(air: Air, light: Diffuse, moments: vec2f, mu: f32, cosine: f32) -> 
     return light.mean * (air.rayleigh * max(rayleigh, vec3f(0.0)) + air.mie * max(mie, vec3f(0.0)));
 }
 
-// Where a cosine to the zenith lies between nadir (0) and zenith (1) in the LUT: nearly even in the angle.
-fn unit_of_view(mu: f32) -> f32 {
-    let from_pole = sqrt(max(0.0, 1.0 - abs(mu)));
-    return select(0.5 * from_pole, 1.0 - 0.5 * from_pole, mu >= 0.0);
-}
+// Where a cosine to the zenith lies between nadir (0) and zenith (1) in the LUT: light changes fastest at the horizon.
+fn unit_of_view(mu: f32) -> f32 { return 0.5 + 0.5 * mu; }
 
 // The inverse of unit_of_view.
-fn view_cosine_at(unit: f32) -> f32 {
-    let from_pole = 1.0 - abs(2.0 * unit - 1.0);
-    let mu = 1.0 - from_pole * from_pole;
-    return select(-mu, mu, unit >= 0.5);
-}
+fn view_cosine_at(unit: f32) -> f32 { return 2.0 * unit - 1.0; }
 
 // Where an azimuth from the sun lies between the sun's (0) and the opposite one (1) in the LUT, by its cosine.
 fn unit_of_turn(turn: f32) -> f32 { return pow(max(0.5 - 0.5 * turn, 0.0), 0.6); }

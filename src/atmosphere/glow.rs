@@ -98,15 +98,14 @@ impl GlowLut {
     }
 }
 
-/// Where a cosine to the zenith lies between nadir (0) and zenith (1): nearly even in the angle.
+/// Where a cosine to the zenith lies between nadir (0) and zenith (1): light changes fastest at the horizon.
 fn unit_of_view(mu: f64) -> f64 {
-    0.5 + (0.5 - 0.5 * (1.0 - mu.abs()).max(0.0).sqrt()).copysign(mu)
+    0.5 + 0.5 * mu
 }
 
 /// The inverse of [`unit_of_view`].
 fn view_mu(unit: f64) -> f64 {
-    let from_pole = 1.0 - (2.0 * unit - 1.0).abs();
-    (1.0 - from_pole * from_pole).copysign(unit - 0.5)
+    2.0 * unit - 1.0
 }
 
 /// Cosine of the azimuth of a node: nodes are densest towards the sun.

@@ -18,7 +18,9 @@ use std::f64::consts::{FRAC_PI_4, PI};
 /// Texels along the sun's elevation and along the altitude, as in the shaders.
 pub(super) const COLUMNS: usize = 32;
 pub(super) const ROWS: usize = 16;
-/// Columns are densest at the terminator; at this cosine of the sun's zenith angle, they are a quarter as dense.
+/// Columns are densest at the terminator; at these cosines of the sun's zenith angle, by day and in the planet's
+/// shadow, they are a quarter as dense.
+const DAYLIGHT: f64 = 0.3;
 const TWILIGHT: f64 = 0.15;
 /// Number of corrections, as in the shaders.
 const CORRECTIONS: usize = 4;
@@ -347,13 +349,15 @@ pub(super) fn place(altitude: f64, sun_mu: f64) -> (f64, f64) {
 /// Where a cosine of the sun's zenith angle lies between the first column of the LUT (0) and the last one (1). Columns
 /// are densest around the terminator.
 fn unit_of_sun(mu: f64) -> f64 {
-    0.5 + 0.5 * (1.0 + TWILIGHT) * mu / (mu.abs() + TWILIGHT)
+    let bend = if mu >= 0.0 { DAYLIGHT } else { TWILIGHT };
+    0.5 + 0.5 * (1.0 + bend) * mu / (mu.abs() + bend)
 }
 
 /// The inverse of [`unit_of_sun`].
 fn sun_mu_at(x: f64) -> f64 {
-    let y = (2.0 * x - 1.0) / (1.0 + TWILIGHT);
-    (TWILIGHT * y / (1.0 - y.abs())).clamp(-1.0, 1.0)
+    let bend = if x >= 0.5 { DAYLIGHT } else { TWILIGHT };
+    let y = (2.0 * x - 1.0) / (1.0 + bend);
+    (bend * y / (1.0 - y.abs())).clamp(-1.0, 1.0)
 }
 
 /// Radiance of the ground in the sun, without light from the sky.

@@ -110,7 +110,7 @@ fn the_planets_shadow_is_as_bright_as_by_path_tracing() {
     ] {
         let found = air.radiance(&ray);
         for i in 0..3 {
-            assert!((found[i] / expected[i] - 1.0).abs() < 0.04, "{ray:?}: {found:?} instead of {expected:?}");
+            assert!((found[i] / expected[i] - 1.0).abs() < 0.045, "{ray:?}: {found:?} instead of {expected:?}");
         }
     }
 }
@@ -141,7 +141,13 @@ fn the_air_of_shipped_planets_is_nearly_as_bright_as_by_path_tracing() {
     let ground = [(0.0, 0.0), (45.0, 0.0), (45.0, 90.0), (45.0, 180.0), (80.0, 0.0), (80.0, 90.0), (80.0, 180.0)];
     let high = [(45.0, 90.0), (85.0, 0.0), (85.0, 180.0), (100.0, 180.0), (150.0, 90.0)];
     // The share of figures that may be more than 5% off, and the worst of all.
-    for (file, share, worst) in [("cinnabar.ron", 0.12, 0.2), ("maren.ron", 0.0, 0.05), ("hoarfrost.ron", 0.0, 0.05)] {
+    let bars = [
+        ("cinnabar.ron", 0.1, 0.12),
+        ("garland.ron", 0.01, 0.06),
+        ("maren.ron", 0.0, 0.05),
+        ("hoarfrost.ron", 0.0, 0.05),
+    ];
+    for (file, share, worst) in bars {
         let planet = shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap();
         let air = Air::try_new(&planet).unwrap();
         let mut off = Vec::new();
