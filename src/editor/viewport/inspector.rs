@@ -47,6 +47,7 @@ impl Inspector {
     /// Takes the newest answers. `under`: the place under the pointer.
     pub(super) fn update(&mut self, under: Option<&KnownPlace>, surface: Option<&Arc<Surface>>, time_secs: f64) {
         if !self.is_open {
+            self.probe.leave();
             (self.held, self.last) = (None, None);
             return;
         }

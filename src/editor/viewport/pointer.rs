@@ -46,7 +46,6 @@ pub enum Aim {
 }
 
 /// A question about a surface.
-#[derive(Clone)]
 struct Question {
     number: u64,
     aim: Aim,
@@ -55,11 +54,18 @@ struct Question {
     clouds_at_secs: Option<f64>,
 }
 
-impl Question {
-    fn same_as(&self, other: &Question) -> bool {
-        self.aim == other.aim
-            && self.clouds_at_secs == other.clouds_at_secs
-            && Arc::ptr_eq(&self.surface, &other.surface)
+/// The last question. It outlives the planet that it is about, and keeps nothing of it.
+struct Asked {
+    aim: Aim,
+    surface: Weak<Surface>,
+    clouds_at_secs: Option<f64>,
+}
+
+impl Asked {
+    fn is(&self, question: &Question) -> bool {
+        self.aim == question.aim
+            && self.clouds_at_secs == question.clouds_at_secs
+            && std::ptr::eq(self.surface.as_ptr(), Arc::as_ptr(&question.surface))
     }
 }
 
@@ -67,7 +73,7 @@ impl Question {
 pub struct Probe {
     questions: Sender<Question>,
     answers: Receiver<(u64, Option<KnownPlace>)>,
-    asked: Option<Question>,
+    asked: Option<Asked>,
     /// Number of the next question.
     next: u64,
     /// Answers to questions before this number are stale: the pointer has left since.
@@ -99,9 +105,9 @@ impl Probe {
     /// Asks for a place, and for the clouds over it at a time, unless the last question was equal.
     pub fn ask(&mut self, aim: Aim, surface: &Arc<Surface>, clouds_at_secs: Option<f64>) {
         let question = Question { number: self.next, aim, surface: surface.clone(), clouds_at_secs };
-        if !self.asked.as_ref().is_some_and(|asked| asked.same_as(&question)) {
+        if !self.asked.as_ref().is_some_and(|asked| asked.is(&question)) {
             self.next += 1;
-            self.asked = Some(question.clone());
+            self.asked = Some(Asked { aim: question.aim.clone(), surface: Arc::downgrade(surface), clouds_at_secs });
             // Fails only if the thread could not be started.
             let _ = self.questions.send(question);
         }
@@ -170,4 +176,37 @@ fn look(question: &Question, clouds: &mut Clouds) -> Option<KnownPlace> {
         cover: question.clouds_at_secs.and_then(|secs| clouds.over(terrain, dir, secs)),
         sample,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lod::{Quality, opening};
+    use crate::planet::Planet;
+    use crate::tiles::build_now;
+    use std::time::{Duration, Instant};
+
+    /// Neither a click that was answered nor an inspected place keeps the tiles of a planet that is closed.
+    #[test]
+    fn an_answered_question_keeps_no_surface() {
+        let planet = Arc::new(Planet::default());
+        let view = opening::opening_view(&planet, [64, 64], Quality::Low);
+        let surface = Arc::new(build_now(&planet, &view).unwrap());
+        let mut probe = Probe::new(|| {});
+        let begun = Instant::now();
+        let wait = || {
+            assert!(begun.elapsed() < Duration::from_secs(60), "it never came");
+            std::thread::sleep(Duration::from_millis(1));
+        };
+        while probe.answer().is_none() {
+            probe.ask(Aim::Place(DVec3::X), &surface, None);
+            wait();
+        }
+        assert_eq!(probe.next, 1, "it was asked more than once");
+        let left = Arc::downgrade(&surface);
+        drop(surface);
+        while left.upgrade().is_some() {
+            wait();
+        }
+    }
 }
