@@ -57,9 +57,9 @@ const DUSK_SKY_SHARE: f32 = 0.07;
 const DUSK_SKY_EV: f32 = -1.0;
 const FOLLOWED_DUSK_SKY: f32 = 0.5;
 const DUSK_FROM_EV: vec2f = vec2f(2.0, 4.0);
-// Fill: dark ground before a bright sky, such as dust around a low sun, is lifted as by a graduated filter. The level in
-// stops of the median of the ground from which on it is, the share of what is lacking, the most stops, and the levels of
-// the sky (exceeded by DUSK_SKY_SHARE of the picture) over which it begins.
+// Fill: dark ground before a bright sky, such as dust around a low sun, is lifted as by a graduated filter. The level
+// in stops below which the median of the ground is lifted, the share of what is lacking, the most stops, and the levels
+// of the sky (exceeded by DUSK_SKY_SHARE of the picture) over which it begins.
 const FILL_BELOW_EV: f32 = -3.7;
 const FOLLOWED_FILL: f32 = 0.9;
 const MOST_FILL_EV: f32 = 2.3;
