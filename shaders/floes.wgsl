@@ -39,7 +39,7 @@ fn floe_at(at: vec3f, grid: f32, seed: u32) -> vec2f {
     return vec2f(second - nearest.x, nearest.y);
 }
 
-// Share of a pixel that the lead between two floes covers, so that a lead thinner than a pixel is a faint line and not a
+// Share of a pixel that the lead between two floes covers, so that a lead thinner than a pixel is a faint line, not a
 // row of dots. `difference`: of the distances to both floes, cells; `lead`: that difference at the edge of the lead;
 // `width`: of the pixel, cells. The difference changes by twice the distance across the lead.
 fn lead_share(difference: f32, lead: f32, width: f32) -> f32 {
