@@ -116,10 +116,8 @@ fn sky_exceeded_by(count: f32) -> f32 {
 }
 
 // The exposure that the ground alone would have, from the one before highlights limit it; no more than `LEAST_EV` where
-// there is hardly any. `pixels`: count of all.
-fn of_ground(unlimited_ev: f32, pixels: f32) -> f32 {
-    var counted = 0.0;
-    for (var i = 0u; i < METER_BINS; i++) { counted += f32(bins[GROUND + i]); }
+// there is hardly any. `counted`: its pixels; `pixels`: all.
+fn of_ground(unlimited_ev: f32, counted: f32, pixels: f32) -> f32 {
     let top = stops(bin_below(BEYOND * pixels, 0u, ALL));
     let highlight = stops(bin_below(HIGHLIGHTS * counted, 0u, GROUND));
     let broad = stops(bin_below(BROAD_HIGHLIGHTS * counted, 0u, GROUND));
@@ -128,12 +126,11 @@ fn of_ground(unlimited_ev: f32, pixels: f32) -> f32 {
     return mix(LEAST_EV, ev, smoothstep(GROUND_SHARE.x, GROUND_SHARE.y, counted / pixels));
 }
 
-// Stops by which dark parts are lifted at an exposure. `pixels`: count of all.
-fn fill_at(ev: f32, pixels: f32) -> f32 {
-    var counted = 0.0;
-    for (var i = 0u; i < METER_BINS; i++) { counted += f32(bins[GROUND + i]); }
+// Stops by which dark parts are lifted at an exposure, before a sky of a level in stops at that exposure. `counted`:
+// pixels of the ground; `pixels`: all.
+fn fill_at(ev: f32, sky_ev: f32, counted: f32, pixels: f32) -> f32 {
     let lacking = FILL_BELOW_EV - (stops(bin_below(0.5 * counted, 0u, GROUND)) + ev);
-    let sky = smoothstep(FILL_SKY_EV.x, FILL_SKY_EV.y, sky_exceeded_by(DUSK_SKY_SHARE * pixels) + ev);
+    let sky = smoothstep(FILL_SKY_EV.x, FILL_SKY_EV.y, sky_ev);
     let there = smoothstep(GROUND_SHARE.x, GROUND_SHARE.y, counted / pixels);
     return clamp(FOLLOWED_FILL * lacking, 0.0, MOST_FILL_EV) * sky * there;
 }
@@ -159,6 +156,10 @@ fn compute() {
         passed += here;
     }
     let pixels = WHOLE * f32(step.size_px.x * step.size_px.y) / f32(METER_STRIDE * METER_STRIDE);
+    // Pixels of the ground, and the level of the sky.
+    var ground = 0.0;
+    for (var i = 0u; i < METER_BINS; i++) { ground += f32(bins[GROUND + i]); }
+    let sky = sky_exceeded_by(DUSK_SKY_SHARE * pixels);
     let top = stops(bin_below(BEYOND * pixels, 0u, ALL));
     let highlight = stops(bin_below(HIGHLIGHTS * counted, first, 0u));
     let broad = stops(bin_below(BROAD_HIGHLIGHTS * counted, first, 0u));
@@ -176,17 +177,17 @@ fn compute() {
             ev += share * min(-above, WIDEST_LIFT_EV);
         }
         ev = min(ev, BROAD_HIGHLIGHT_EV - broad);
-        let ground_ev = of_ground(unlimited, pixels);
+        let ground_ev = of_ground(unlimited, ground, pixels);
         ev += GIVEN_BACK * max(ground_ev - ev, 0.0);
         let dusk = smoothstep(DUSK_FROM_EV.x, DUSK_FROM_EV.y, unlimited);
-        ev -= dusk * FOLLOWED_DUSK_SKY * max(sky_exceeded_by(DUSK_SKY_SHARE * pixels) + ev - DUSK_SKY_EV, 0.0);
+        ev -= dusk * FOLLOWED_DUSK_SKY * max(sky + ev - DUSK_SKY_EV, 0.0);
         ev -= FOLLOWED_BEYOND * max(top + ev - WHITE_EV, 0.0);
         let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
         ev = clamp(ev, LEAST_EV, most);
     }
     let beyond_ev = clamp(top + ev - WHITE_EV, 0.0, MOST_BEYOND_EV);
     exposure.beyond_ev += clamp((beyond_ev - exposure.beyond_ev) * step.share, -step.most_ev, step.most_ev);
-    let fill_ev = fill_at(ev, pixels);
+    let fill_ev = fill_at(ev, sky + ev, ground, pixels);
     exposure.fill_ev += clamp((fill_ev - exposure.fill_ev) * step.share, -step.most_ev, step.most_ev);
     exposure.ev += clamp((ev - exposure.ev) * step.share, -step.most_ev, step.most_ev);
     exposure.factor = exp2(exposure.ev);

@@ -43,6 +43,7 @@ fn floe_at(at: vec3f, grid: f32, seed: u32) -> vec2f {
 // row of dots. `difference`: of the distances to both floes, cells; `lead`: that difference at the edge of the lead;
 // `width`: of the pixel, cells. The difference changes by twice the distance across the lead.
 fn lead_share(difference: f32, lead: f32, width: f32) -> f32 {
+    // Half as wide again as the pixel, as a narrower filter leaves dots; and never nothing.
     let half_pixel = 1.5 * width + 0.005;
     return max(min(difference + half_pixel, lead) - max(difference - half_pixel, -lead), 0.0) / (2.0 * half_pixel);
 }

@@ -75,8 +75,8 @@ impl Goal {
     }
 }
 
-/// Memory for each tile that a picture shows: its detail texture and, because about as many tiles lie outside the
-/// picture and a third as many are their ancestors, three meshes.
+/// Memory for each tile that a picture shows: its detail texture and three meshes, because about as many tiles lie
+/// outside the picture, a third as many are their ancestors, and horizon angles take the rest.
 const BYTES_PER_SEEN_TILE: usize = 3 * TILE_VERTICES * size_of::<Vertex>() + DETAIL_BYTES;
 
 /// Builds the tiles of a view. `keep_going` is asked before each layer of each tile; once it says no, no finer level is

@@ -235,7 +235,7 @@ fn look_at_edges(scenes: impl Iterator<Item = Case>) {
 /// Scenes, and the largest jump (95th percentile) of their edges at medium quality, relative to aliased edges and of
 /// 255.
 const MOVING: [(&str, f64, f64); 4] =
-    [("limb from 400 km", 0.55, 40.0), ("limb in air", 1.15, 30.0), ("ridge", 0.6, 41.0), ("glint", 1.1, 10.0)];
+    [("limb from 400 km", 0.55, 40.0), ("limb in air", 1.13, 30.0), ("ridge", 0.6, 40.0), ("glint", 1.1, 10.0)];
 
 #[test]
 fn a_moving_ridge_does_not_crawl() {
@@ -285,7 +285,7 @@ fn move_edges(scenes_and_bars: &[(&str, f64, f64)], steps: u32) {
             scene.name
         );
         println!("{told}");
-        if low.1 > low_before.1 || medium.1 > (share * before.1).min(most) || medium.0 > 1.1 * before.0 {
+        if low.1 > low_before.1 || medium.1 > (share * before.1).min(most) || medium.0 > 1.08 * before.0 {
             problems.push(told);
         }
     }
