@@ -113,32 +113,54 @@ struct Clouds {
     at_km: f32,
 }
 
-// Mean over the clouds of 3x3 pixels. The march is jittered so that any 3x3 pixels together sample the whole ray (see
-// the noise in clouds.wgsl). Pixels whose ground is at another distance are left out. From the second frame of a still
-// picture on, the mean over the frames takes its place.
-fn clouds_around(pixel: vec2i) -> Clouds {
+// Weights of a row of pixels, from the middle. Sums over every third pixel are equal: the mean has each of the nine
+// jitters (clouds.wgsl) with one weight, and so no pattern.
+const ROW: vec3f = vec3f(1.0, 1.0, 0.0);
+// Where clouds of low quality are hardly wider than its large pixels: equal weights would show them as squares.
+const SOFT_ROW: vec3f = vec3f(3.0, 2.0, 1.0) / 3.0;
+// Widths of a pixel at the top of the clouds over the tile of puffs between which that sets in.
+const SOFT_WIDTHS: vec2f = vec2f(0.003, 0.006);
+
+fn row_of(dir: vec3f) -> vec3f {
+    if frame.pattern_quality > 0.0 || body.cloud_is_far != 0u { return ROW; }
+    let h = body.eye_altitude_km;
+    let top = body.cloud_top_km;
+    let hits = ray_sphere((body.radius_km + h) * dot(dir, body.eye_up), (h - top) * (2.0 * body.radius_km + h + top));
+    let at_km = select(hits.y, hits.x, h > top);
+    if at_km <= 0.0 { return SOFT_ROW; }
+    let width = at_km * frame.pixel_rad / body.cloud_bands[body.cloud_layers[LOW_LAYER].puff_band].period;
+    return mix(ROW, SOFT_ROW, smoothstep(SOFT_WIDTHS.x, SOFT_WIDTHS.y, width));
+}
+
+// Mean over the clouds of 3x3 pixels, or with a soft row of 5x5. The march is jittered so that any 3x3 pixels together
+// sample the whole ray (see the noise in clouds.wgsl). Pixels whose ground is at another distance are left out. From the
+// second frame of a still picture on, the mean over the frames takes its place.
+fn clouds_around(pixel: vec2i, dir: vec3f) -> Clouds {
     let first = vec2i(frame.origin_px);
     let last = first + vec2i(frame.size_px) - 1;
     let depth = textureLoad(scene_depth, pixel, 0);
     var light = vec4f(0.0);
     var distance = 0.0;
     var seen = 0.0;
-    var count = 0.0;
-    let reach = select(1, 0, frame.still_number > 1u);
+    var weights = 0.0;
+    let row = row_of(dir);
+    let reach = select(select(1, 2, row.z > 0.0), 0, frame.still_number > 1u);
     let side = 2 * reach + 1;
     for (var i = 0; i < side * side; i++) {
         let at = clamp(pixel + vec2i(i % side, i / side) - reach, first, last);
         let there = textureLoad(scene_depth, at, 0);
         if min(depth, there) * 1.25 < max(depth, there) { continue; }
+        let aside = abs(vec2i(i % side, i / side) - reach);
+        let weight = row[aside.x] * row[aside.y];
         let clouds = textureLoad(cloud_light, at, 0);
-        light += clouds;
-        count += 1.0;
+        light += weight * clouds;
+        weights += weight;
         if clouds.a < 1.0 {
-            distance += (1.0 - clouds.a) * textureLoad(cloud_distance, at, 0).r;
-            seen += 1.0 - clouds.a;
+            distance += weight * (1.0 - clouds.a) * textureLoad(cloud_distance, at, 0).r;
+            seen += weight * (1.0 - clouds.a);
         }
     }
-    return Clouds(light / count, select(NOTHING_KM, distance / seen, seen > 1e-5));
+    return Clouds(light / weights, select(NOTHING_KM, distance / seen, seen > 1e-5));
 }
 
 struct Output {
@@ -276,7 +298,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     var clouds = vec4f(0.0, 0.0, 0.0, 1.0);
     var cloud_at = NOTHING_KM;
     if has_clouds() {
-        let around = clouds_around(pixel);
+        let around = clouds_around(pixel, dir);
         clouds = around.light;
         cloud_at = around.at_km;
     }

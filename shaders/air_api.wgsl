@@ -31,9 +31,9 @@ fn light_at(rel_m: vec3f, n: vec3f) -> Light {
         use_sun_at(i, body.eye_km + rel_km);
         let sun_mu = dot(up, active_sun.dir);
         let sunlight = active_sun.irradiance * sun_transmittance(altitude_km, sun_mu);
-        let shadow = cloud_shadow(rel_km, altitude_km, sun_mu, 0.001 * length(rel_m) * frame.pixel_rad);
-        let share = overcast(shadow);
-        out.sun += sunlight * (shadow * max(dot(n, active_sun.dir), 0.0));
+        let clouds = under_clouds(rel_km, altitude_km, sun_mu, 0.001 * length(rel_m) * frame.pixel_rad);
+        let share = overcast(clouds.straight, clouds.passed);
+        out.sun += sunlight * (clouds.straight * max(dot(n, active_sun.dir), 0.0));
         out.sky += (sky_irradiance(altitude_km, sun_mu) * share.x + sunlight * (max(sun_mu, 0.0) * share.y)) * open;
     }
     return out;

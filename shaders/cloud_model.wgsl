@@ -73,8 +73,9 @@ fn sky_between(a: Sky, b: Sky, share: f32) -> Sky {
 fn sky_over(dir: vec3f, footprint: f32) -> Sky {
     let texel_km = cloud_texel_km();
     let level = clamp(log2(max(footprint / texel_km, 1e-3)), body.cloud_least_level, CLOUD_MAP_LEVELS - 1.0);
-    let ground = textureSampleLevel(cloud_maps, clamped, dir, 0, body.cloud_least_level);
-    let carried = drifted(dir) + shifted(dir, texel_km, footprint);
+    let shift = shifted(dir, texel_km, footprint);
+    let ground = textureSampleLevel(cloud_maps, clamped, dir + shift, 0, body.cloud_least_level);
+    let carried = drifted(dir) + shift;
     var ranks = vec4f(0.0);
     if body.cloud_odd_share < 1.0 {
         ranks = textureSampleLevel(cloud_maps, clamped, carried, 1, level) * (1.0 - body.cloud_odd_share);
@@ -276,14 +277,39 @@ fn depth_beneath(number: u32, sky: Sky) -> f32 {
     return select(0.0, low, number == MIDDLE_LAYER);
 }
 
-// Share of direct sunlight that clouds transmit to a point. `rel`: point relative to the eye, km; `h`: altitude, km.
-fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
-    return cloud_shade(rel, h, sun_mu, footprint).x;
+// Share of light that a layer of an optical depth lets through, most of it diffuse: two-stream estimate.
+fn let_through(depth: f32) -> f32 { return 1.0 / (1.0 + 0.12 * depth); }
+
+// The same for a layer that covers a share of the sky.
+fn let_through_gaps(depth: f32, cover: f32) -> f32 { return 1.0 - cover * (1.0 - let_through(depth)); }
+
+// Light that arrives under clouds, as shares of that without them.
+struct UnderClouds {
+    // Of direct sunlight: what arrives straight
+    straight: f32,
+    // Of all light: what arrives straight or diffuse
+    passed: f32,
+    // Means of both over the clouds around
+    straight_around: f32,
+    passed_around: f32,
+    // Of light that the ground sends up: what fog sends back to it, where the pixel is so wide that the ground around
+    // counts. Without it fog over snow would be darker than snow.
+    returned: f32,
 }
 
-// That, and its mean over the clouds around.
-fn cloud_shade(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> vec2f {
-    if all(body.cloud_coverages <= vec4f(0.0)) || h >= body.cloud_top_km { return vec2f(1.0); }
+const NO_CLOUDS: UnderClouds = UnderClouds(1.0, 1.0, 1.0, 1.0, 0.0);
+
+// Widths of a pixel over the height of a cloud between which it shows the ground in light that the cloud scatters on
+// its way: that light comes from as far around as the cloud is high.
+const SPREAD_WIDTHS: vec2f = vec2f(0.1, 0.5);
+
+fn spread_over(footprint: f32, height: f32) -> f32 {
+    return smoothstep(SPREAD_WIDTHS.x, SPREAD_WIDTHS.y, footprint / max(height, 0.01));
+}
+
+// The light of the active sun under clouds. `rel`: point relative to the eye, km; `h`: altitude, km.
+fn under_clouds(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> UnderClouds {
+    if sun_mu < -0.1 || all(body.cloud_coverages <= vec4f(0.0)) || h >= body.cloud_top_km { return NO_CLOUDS; }
     let radius = body.radius_km;
     let low = body.cloud_layers[LOW_LAYER];
     let middle = 0.5 * (low.bottom_km + low.top_km);
@@ -298,17 +324,25 @@ fn cloud_shade(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> vec2f {
     let fog = body.cloud_layers[FOG_LAYER];
     let fog_left = saturate1((fog.top_km - h) / (fog.top_km - fog.bottom_km));
     let path = 1.0 / max(dot(up, active_sun.dir), 0.05);
-    let others = depth_over(LOW_LAYER, sky, path) + with_gaps(fog.optical_depth * fog_left * path, sky.covers[FOG_LAYER]);
-    let through = exp(-(low.optical_depth * vec2f(density * sky.top, 1.0) * left) * path);
-    return vec2f(through.x, 1.0 - sky.covers[LOW_LAYER] * (1.0 - through.y)) * exp(-others);
+
+    let fog_depth = fog.optical_depth * fog_left;
+    let others = exp(-depth_over(LOW_LAYER, sky, path) - with_gaps(fog_depth * path, sky.covers[FOG_LAYER]));
+    let fog_passes = let_through_gaps(fog_depth, sky.covers[FOG_LAYER]);
+    let others_pass = fog_passes
+        * let_through_gaps(body.cloud_layers[MIDDLE_LAYER].optical_depth, sky.covers[MIDDLE_LAYER])
+        * let_through_gaps(body.veil_depth * (1.0 - VEIL_AHEAD), sky.veil);
+    let cover = sky.covers[LOW_LAYER];
+    let depths = low.optical_depth * left * vec2f(density * sky.top, 1.0);
+    let through = exp(-depths * path);
+    var out: UnderClouds;
+    out.straight = through.x * others;
+    out.straight_around = (1.0 - cover * (1.0 - through.y)) * others;
+    out.passed = let_through_gaps(depths.y, 1.0 - through.x) * others_pass;
+    out.passed_around = let_through_gaps(depths.y, cover) * others_pass;
+    out.returned = (1.0 - fog_passes) * spread_over(footprint, fog.top_km - h);
+    return out;
 }
 
-// Share of light that a layer of an optical depth lets through, most of it diffuse: two-stream estimate.
-fn let_through(depth: f32) -> f32 { return 1.0 / (1.0 + 0.12 * depth); }
-
-// Two-stream estimate of light under clouds after multiple scattering. x: factor on the sky's irradiance; y: share of
-// direct sunlight that arrives as diffuse light.
-fn overcast(shadow: f32) -> vec2f {
-    let spread = let_through(body.cloud_layers[LOW_LAYER].optical_depth);
-    return vec2f(mix(mix(spread, 1.0, 0.35), 1.0, shadow), (1.0 - shadow) * spread);
-}
+// Light under clouds after multiple scattering. x: factor on the sky's irradiance; y: share of direct sunlight that
+// arrives as diffuse light.
+fn overcast(straight: f32, passed: f32) -> vec2f { return vec2f(mix(passed, 1.0, 0.35), max(passed - straight, 0.0)); }

@@ -180,10 +180,6 @@ struct March {
     spread: f32,
 }
 
-// Widths of a pixel over the height of a cloud between which it shows the ground in light that the cloud scatters on
-// its way up: that light comes from as far around as the cloud is high. Without it thin cloud over land would be grey.
-const SPREAD_WIDTHS: vec2f = vec2f(0.1, 0.5);
-
 fn march(into: March, way: Way, jitter: f32) -> March {
     var out = into;
     let layer = body.cloud_layers[way.layer];
@@ -324,7 +320,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             out.light += seen * shine;
             out.distance += seen * here;
             out.weight += seen;
-            let wide = smoothstep(SPREAD_WIDTHS.x, SPREAD_WIDTHS.y, here * frame.pixel_rad / max(bottom, 0.01));
+            let wide = spread_over(here * frame.pixel_rad, bottom);
             out.spread += seen * from_above * wide * let_through(both);
             out.transmittance *= passed;
             if out.transmittance < 0.004 { out.transmittance = 0.0; break; }

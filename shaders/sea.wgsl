@@ -294,17 +294,11 @@ fn water_radiance(water: Water) -> vec3f {
         let sun = active_sun.dir;
         let sun_mu = dot(up, sun);
         let sunlight = active_sun.irradiance * sun_transmittance(h, sun_mu);
-        var shadow = 1.0;
+        let clouds = under_clouds(rel_km, h, sun_mu, footprint_m * 0.001);
         // The sky over a shadow is that of the clouds around: the sea mirrors it.
-        var around = 1.0;
-        if sun_mu > -0.1 {
-            let shade = cloud_shade(rel_km, h, sun_mu, footprint_m * 0.001);
-            shadow = shade.x;
-            around = shade.y;
-        }
-        let share = overcast(around);
+        let share = overcast(clouds.straight_around, clouds.passed_around);
         // The shadow of the ground is known for the first sun only.
-        shadow *= select(1.0, water.visible.star, i == 0u);
+        let shadow = clouds.straight * select(1.0, water.visible.star, i == 0u);
         let diffused = sunlight * max(sun_mu, 0.0) * share.y;
         let straight = sunlight * shadow * max(sun_mu, 0.0);
         direct += straight;

@@ -356,11 +356,13 @@ fn lit(ground: Material, facet: Facet, from_ground: Visibility) -> vec3f {
     let rough = rough_diffuse(max(dot(facet.n, sun), 0.0), n_v, dot(sun, facet.v), tilted_l, ground.roughness);
     let sun_mu = dot(facet.up, sun);
     let sunlight = active_sun.irradiance * sun_transmittance(facet.altitude_km, sun_mu);
-    var shadow = 1.0;
-    if sun_mu > -0.1 { shadow = cloud_shadow(facet.rel_km, facet.altitude_km, sun_mu, facet.footprint_km); }
-    let sky_share = overcast(shadow);
-    shadow *= from_ground.star;
-    let sky = sky_irradiance(facet.altitude_km, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
+    let clouds = under_clouds(facet.rel_km, facet.altitude_km, sun_mu, facet.footprint_km);
+    let sky_share = overcast(clouds.straight, clouds.passed);
+    let shadow = clouds.straight * from_ground.star;
+    var sky = sky_irradiance(facet.altitude_km, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
+    // Light goes to and fro between ground and fog.
+    let again = ground.albedo * clouds.returned;
+    sky += (sky + sunlight * max(sun_mu, 0.0) * shadow) * again / (1.0 - again);
     let open = saturate1(0.5 + 0.5 * dot(n, facet.up) * facet.area) * from_ground.sky;
     // Light reflected by the surrounding ground to a slope that does not see the whole sky.
     let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);

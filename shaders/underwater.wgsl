@@ -44,11 +44,10 @@ fn downwelling_at(up: vec3f) -> Downwelling {
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun_at(i, body.eye_km);
         let sun_mu = dot(up, active_sun.dir);
-        var shadow = 1.0;
-        if sun_mu > -0.1 { shadow = cloud_shadow(vec3f(0.0), h, sun_mu, 0.01); }
-        let share = overcast(shadow);
+        let clouds = under_clouds(vec3f(0.0), h, sun_mu, 0.01);
+        let share = overcast(clouds.straight, clouds.passed);
         let sunlight = active_sun.irradiance * sun_transmittance(h, sun_mu) * max(sun_mu, 0.0);
-        out.straight += sunlight * shadow;
+        out.straight += sunlight * clouds.straight;
         out.sky += sky_irradiance(h, sun_mu) * share.x + sunlight * share.y;
         if i == 0u {
             let flat = active_sun.dir - up * sun_mu;
@@ -110,15 +109,14 @@ fn from_below(dir: vec3f, surface_km: f32, up: vec3f, deep: vec3f) -> vec3f {
         for (var i = 0u; i < body.sun_count; i++) {
             use_sun_at(i, body.eye_km);
             let sun_mu = dot(up, active_sun.dir);
-            var shadow = 1.0;
-            if sun_mu > -0.1 { shadow = cloud_shadow(dir * surface_km, h, sun_mu, 0.01); }
-            let share = overcast(shadow);
+            let clouds = under_clouds(dir * surface_km, h, sun_mu, 0.01);
+            let share = overcast(clouds.straight, clouds.passed);
             let sunlight = active_sun.irradiance * sun_transmittance(h, sun_mu);
             light += sky_radiance(mu, sun_mu) * share.x + sunlight * max(sun_mu, 0.0) * share.y / PI;
             // The sun's disc, spread by the small waves.
             let wide = rest * 0.12 + active_sun.radius_rad * active_sun.radius_rad;
             let off = 1.0 - dot(refracted, active_sun.dir);
-            light += sunlight * shadow * exp(-2.0 * off / wide) / (PI * wide);
+            light += sunlight * clouds.straight * exp(-2.0 * off / wide) / (PI * wide);
         }
         // Light is spread over a wider angle under water.
         out = mix(mirror, light * (1.0 - fresnel) * INDEX * INDEX * 0.56 + mirror * fresnel, window);

@@ -218,16 +218,23 @@ fn closed_cloud_is_white() {
     }
 }
 
-/// Thin cloud over snow sends back its own light and that of the snow beneath. Without the latter it would be a grey
-/// ribbon. Two streams, over snow of 0.8: 0.34 + 0.66^2 * 0.8 / (1 - 0.34 * 0.8).
+/// Thin cloud and fog over snow send back their own light and that of the snow beneath. Without the latter they would be
+/// grey patches. Two streams, middle clouds over snow of 0.8: 0.34 + 0.66^2 * 0.8 / (1 - 0.34 * 0.8).
 #[test]
 fn thin_cloud_over_snow_is_white() {
     let preset = preset("hoarfrost.ron");
-    let thin = |clouds| Clouds { coverage: 0.0, veil: 0.0, fog: 0.0, middle: 1.0, middle_density: 4.0, ..clouds };
+    // Low clouds would be thick, but there are none.
+    let none =
+        Clouds { coverage: 0.0, density: 32.0, veil: 0.0, fog: 0.0, middle: 0.0, ..preset.clouds.clone().unwrap() };
     let snow = |clouds: Option<Clouds>| {
         let planet = Arc::new(Planet { clouds, ..preset.clone() });
         reflected_at(&planet, &[middle_of(&planet, "Fresh snow")])["Fresh snow"].from_orbit
     };
-    let (clear, under) = (snow(None), snow(preset.clouds.clone().map(thin)));
-    assert!(under > 0.8 * clear, "{under} under thin cloud, {clear} without");
+    let clear = snow(None);
+    let middle = snow(Some(Clouds { middle: 1.0, middle_density: 4.0, ..none.clone() }));
+    // Over the mountains.
+    let fog = snow(Some(Clouds { fog: 1.0, fog_density: 6.0, fog_altitude_km: 4.0, ..none }));
+    println!("clear {clear}, middle clouds {middle}, fog {fog}");
+    assert!(middle > 0.85 * clear, "{middle} under middle clouds, {clear} without");
+    assert!(fog > 0.9 * clear, "{fog} under fog, {clear} without");
 }
