@@ -9,7 +9,10 @@ const SMALLEST_TEXT: f32 = 11.0;
 
 /// Sets the styles of both themes. The theme of the last run, if any, replaces the dark default.
 pub fn set_up(ctx: &egui::Context) {
-    ctx.options_mut(|options| options.fallback_theme = egui::Theme::Dark);
+    ctx.options_mut(|options| {
+        options.fallback_theme = egui::Theme::Dark;
+        options.warn_on_id_clash = cfg!(debug_assertions);
+    });
     ctx.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(6.0, 5.0);
         style.spacing.button_padding = egui::vec2(6.0, 2.0);
