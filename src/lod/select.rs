@@ -47,10 +47,12 @@ impl<'a> Selection<'a> {
         self.is_within(tile, &reach_m) && self.culling.sees(tile)
     }
 
-    /// Whether shading needs a finer detail texture than the tile's.
-    pub fn wants_finer_detail(&self, tile: &Tile) -> bool {
-        let level = tile.id.level + 1;
-        level <= NodeId::MAX_LEVEL && self.is_within(tile, &|_| self.ranges.shaded_m(level))
+    /// Whether shading needs the tile's own detail texture: that of an ancestor is too coarse.
+    ///
+    /// Each tile is asked by itself. A texture shows its own level and its parent's, and so reaches to twice the range of
+    /// its level: as far as a tile reaches that begins within the range, but not as far as its parent.
+    pub fn wants_detail(&self, tile: &Tile) -> bool {
+        self.is_within(tile, &|_| self.ranges.shaded_m(tile.id.level))
     }
 
     /// Whether the picture shows any part of the tile.

@@ -148,8 +148,8 @@ struct Choice {
     ranges: Ranges,
     bias: u32,
     split: HashSet<NodeId>,
-    /// Split nodes whose detail texture is too coarse, too.
-    shaded_finer: HashSet<NodeId>,
+    /// Nodes that are shown with their own detail texture, or a finer one.
+    own_detail: HashSet<NodeId>,
     /// Number of tiles that the picture shows.
     seen: usize,
     /// Whether it was finished in time.
@@ -203,13 +203,18 @@ fn choose(
 ) -> Choice {
     let (cache, budget) = (builder.cache, goal.budget);
     let mut choice =
-        Choice { ranges, bias, split: HashSet::new(), shaded_finer: HashSet::new(), seen: 0, complete: true };
+        Choice { ranges, bias, split: HashSet::new(), own_detail: HashSet::new(), seen: 0, complete: true };
     let eye = goal.view.camera.position_planet_m;
     let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
     let mut level: Vec<NodeId> = NodeId::roots().to_vec();
     builder.build(&level, &|| true);
     loop {
         let tiles = level.iter().filter_map(|id| cache.tile(*id));
+        let tiles = tiles.inspect(|tile| {
+            if selection.wants_detail(tile) {
+                choice.own_detail.insert(tile.id);
+            }
+        });
         let (mut wanted, leaves): (Vec<Arc<Tile>>, Vec<_>) = tiles.partition(|tile| selection.wants_split(tile));
         choice.seen += leaves.iter().filter(|tile| selection.sees(tile)).count();
         if wanted.is_empty() {
@@ -240,9 +245,6 @@ fn choose(
         }
         level = wanted.iter().flat_map(|tile| tile.id.children()).collect();
         for tile in wanted {
-            if selection.wants_finer_detail(&tile) {
-                choice.shaded_finer.insert(tile.id);
-            }
             split_with_neighbours(tile.id, &mut choice.split);
         }
     }
@@ -328,7 +330,7 @@ fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
             let (coarser_edges, finer_edges) = (mask(&coarser), mask(&finer));
             let tile = cache.tile(id)?;
             let mut shaded = id;
-            while let Some(parent) = shaded.parent().filter(|parent| !choice.shaded_finer.contains(parent)) {
+            while let Some(parent) = shaded.parent().filter(|_| !choice.own_detail.contains(&shaded)) {
                 shaded = parent;
             }
             let shading = details.entry(shaded).or_insert_with(|| shading(shaded, cache));

@@ -165,7 +165,7 @@ const STEPS: usize = 600;
 
 /// Popping on a descent: at some of its steps, the largest difference between two pictures of one pose, one with the
 /// tiles of the step before and one with its own; with and without morphing, for the shaded view and for normals.
-/// Without morphing it stops when the difference exceeds four times the one with morphing.
+/// Without morphing it stops when the difference exceeds five times the one with morphing.
 fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2] {
     let planet = bare(planet);
     let terrain = Terrain::try_new(planet.clone()).unwrap();
@@ -207,16 +207,16 @@ fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2]
     most
 }
 
-/// Whether morphing reduces the largest difference at least to a quarter, and there was one to reduce.
+/// Whether morphing reduces the largest difference at least to a fifth, and there was one to reduce.
 fn is_gentle([with, without]: [f64; 2]) -> bool {
-    without > 0.05 && 4.0 * with < without
+    without > 0.02 && 5.0 * with < without
 }
 
 #[test]
 #[ignore = "long: minutes"]
 fn a_way_down_shows_no_level_change() {
     // Among them the steps with the most popping when there is no morphing.
-    let steps = [8, 34, 59, 121, 215, 301, 401, 501];
+    let steps = [8, 34, 59, 121, 215, 301, 401, 433, 501];
     for most in fly_down(preset(LAYERED), steps.into_iter()) {
         assert!(is_gentle(most), "{most:?} with morphing and without");
     }
