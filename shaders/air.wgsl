@@ -133,8 +133,8 @@ fn row_of(dir: vec3f) -> vec3f {
 }
 
 // Mean over the clouds of 3x3 pixels, or with a soft row of 5x5. The march is jittered so that any 3x3 pixels together
-// sample the whole ray (see the noise in clouds.wgsl). Pixels whose ground is at another distance are left out. From the
-// second frame of a still picture on, the mean over the frames takes its place.
+// sample the whole ray (see the noise in clouds.wgsl). Pixels whose ground is at another distance are left out. From
+// the second frame of a still picture on, the mean over the frames takes its place.
 fn clouds_around(pixel: vec2i, dir: vec3f) -> Clouds {
     let first = vec2i(frame.origin_px);
     let last = first + vec2i(frame.size_px) - 1;

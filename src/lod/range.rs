@@ -15,8 +15,8 @@ const LEAST_SPACINGS: f64 = 100.0;
 /// triangle budget. Below 50, tiles would lack chords of older vertices (`eye_spacings`).
 const FEWEST_SPACINGS: f64 = 70.0;
 /// Least range of a level's detail textures. In small pictures their texels are far smaller than pixels at
-/// [`FEWEST_SPACINGS`]. It exceeds the diagonal of a tile, 45: a tile that begins within the range ends within twice the
-/// range, as far as its texture and its parent's in it reach.
+/// [`FEWEST_SPACINGS`]. It exceeds the diagonal of a tile, 45: a tile that begins within the range ends within twice
+/// the range, as far as its texture and its parent's in it reach.
 const FEWEST_SHADED: f64 = 48.0;
 /// Greatest range relative to the least: tiles know the chords of older vertices only this far (`morph.rs`).
 const MOST_OVER_LEAST: f64 = 3.0;

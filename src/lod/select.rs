@@ -49,8 +49,8 @@ impl<'a> Selection<'a> {
 
     /// Whether shading needs the tile's own detail texture: that of an ancestor is too coarse.
     ///
-    /// Each tile is asked by itself. A texture shows its own level and its parent's, and so reaches to twice the range of
-    /// its level: as far as a tile reaches that begins within the range, but not as far as its parent.
+    /// Each tile is asked by itself. A texture shows its own level and its parent's, and so reaches to twice the range
+    /// of its level: as far as a tile reaches that begins within the range, but not as far as its parent.
     pub fn wants_detail(&self, tile: &Tile) -> bool {
         self.is_within(tile, &|_| self.ranges.shaded_m(tile.id.level))
     }

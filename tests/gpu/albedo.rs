@@ -218,8 +218,8 @@ fn closed_cloud_is_white() {
     }
 }
 
-/// Thin cloud and fog over snow send back their own light and that of the snow beneath. Without the latter they would be
-/// grey patches. Two streams, middle clouds over snow of 0.8: 0.34 + 0.66^2 * 0.8 / (1 - 0.34 * 0.8).
+/// Thin cloud and fog over snow send back their own light and that of the snow beneath. Without the latter they would
+/// be grey patches. Two streams, middle clouds over snow of 0.8: 0.34 + 0.66^2 * 0.8 / (1 - 0.34 * 0.8).
 #[test]
 fn thin_cloud_over_snow_is_white() {
     let preset = preset("hoarfrost.ron");
