@@ -127,7 +127,6 @@ fn row_of(dir: vec3f) -> vec3f {
     let top = body.cloud_top_km;
     let hits = ray_sphere((body.radius_km + h) * dot(dir, body.eye_up), (h - top) * (2.0 * body.radius_km + h + top));
     let at_km = select(hits.y, hits.x, h > top);
-    if at_km <= 0.0 { return SOFT_ROW; }
     let width = at_km * frame.pixel_rad / body.cloud_bands[body.cloud_layers[LOW_LAYER].puff_band].period;
     return mix(ROW, SOFT_ROW, smoothstep(SOFT_WIDTHS.x, SOFT_WIDTHS.y, width));
 }

@@ -329,6 +329,27 @@ fn a_view_never_shows_more_triangles_than_its_quality_allows() {
     }
 }
 
+/// A detail texture holds its own level and its parent's. Ground farther than twice its range would need a coarser one,
+/// and would change at once when the texture is chosen. In small pictures ranges are shortest.
+#[test]
+fn ground_is_within_reach_of_its_detail_texture() {
+    let place = LatLon::from_degrees(35.0, -5.0);
+    let planet = Arc::new(layered());
+    let ground_m = planet.radius_m() + Terrain::try_new(planet.clone()).unwrap().height_m(place.direction());
+    for altitude_m in [20.0, 120.0, 175.0, 210.0, 260.0, 3000.0] {
+        let camera = Camera::over(place, ground_m + altitude_m, 0.5, -0.63, Camera::DEFAULT_FOV_Y_RAD);
+        let surface = build_now(&planet, &View { camera, size_px: [480, 320], quality: Quality::Medium }).unwrap();
+        assert!(surface.ranges.shaded_spacings < surface.ranges.least_spacings);
+        for leaf in surface.leaves.iter().filter(|leaf| leaf.shading_tile.id.level > 0) {
+            let away_m = |vertex: &Vertex| vertex.position_planet_m().distance(camera.position_planet_m);
+            let farthest_m = leaf.tile.vertices.iter().map(away_m).fold(0.0, f64::max);
+            let level = leaf.shading_tile.id.level;
+            let reach_m = 2.0 * surface.ranges.shaded_m(level);
+            assert!(farthest_m <= reach_m, "{altitude_m} m: {farthest_m} m away, level {level} reaches {reach_m} m");
+        }
+    }
+}
+
 #[test]
 fn ground_that_runs_out_of_time_is_coarser_and_without_gaps() {
     let planet = Arc::new(rough());

@@ -52,7 +52,6 @@ fn one_builder_serves_several_views_which_share_their_tiles() {
         assert!(bits(&builder.surface_of(i).unwrap()) == bits(alone), "view {i}");
     }
     let built_alone = alone[1].stats.tiles_built;
-    println!("{built} of {built_alone} tiles");
     assert!(built < built_alone / 2, "{built} of {built_alone} tiles");
     assert!(builder.surface_of(3).is_none());
     // An edit reaches every view, and a view that is gone has no surface.

@@ -234,7 +234,6 @@ fn thin_cloud_over_snow_is_white() {
     let middle = snow(Some(Clouds { middle: 1.0, middle_density: 4.0, ..none.clone() }));
     // Over the mountains.
     let fog = snow(Some(Clouds { fog: 1.0, fog_density: 6.0, fog_altitude_km: 4.0, ..none }));
-    println!("clear {clear}, middle clouds {middle}, fog {fog}");
     assert!(middle > 0.85 * clear, "{middle} under middle clouds, {clear} without");
     assert!(fog > 0.9 * clear, "{fog} under fog, {clear} without");
 }

@@ -234,7 +234,7 @@ mod thorough {
     }
 
     #[test]
-    #[ignore = "long: a quarter of an hour"]
+    #[ignore = "long: minutes"]
     fn a_thousand_poses_over_the_shipped_planets() {
         let poses = 1000_usize.div_ceil(shipped::ALL.len());
         for (seed, shipped) in (21..).zip(shipped::ALL) {

@@ -65,7 +65,9 @@ fn compare_with_the_physics(count: u64) {
             compared += 1;
             let off = |found: [f64; 3], expected: [f64; 3], floor: f64| {
                 let errors = found.iter().zip(expected);
-                errors.map(|(found, expected)| ((found - expected).abs() - floor) / expected).fold(0.0, f64::max)
+                let relative = errors.map(|(found, expected)| ((found - expected).abs() - floor) / expected);
+                // What is no number is as wrong as can be.
+                relative.map(|error| if error.is_nan() { f64::INFINITY } else { error }).fold(0.0, f64::max)
             };
             let expected = [air.radiance(ray), air.sun_transmittance(ray.altitude_m, ray.sun_zenith_rad)];
             let error = off(answer.radiance, expected[0], FLOOR).max(off(answer.transmittance, expected[1], 1e-5));

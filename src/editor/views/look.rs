@@ -11,6 +11,7 @@ const SMALLEST_TEXT: f32 = 11.0;
 pub fn set_up(ctx: &egui::Context) {
     ctx.options_mut(|options| {
         options.fallback_theme = egui::Theme::Dark;
+        // The default follows egui's own debug assertions, which are off (Cargo.toml).
         options.warn_on_id_clash = cfg!(debug_assertions);
     });
     ctx.all_styles_mut(|style| {
