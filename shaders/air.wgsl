@@ -179,15 +179,39 @@ struct RayLight {
     transmittance: vec3f,
 }
 
-// Brightness of the airglow in front of the sky: 0.4 overhead and 1.4 near the horizon. Airglow comes from a shell near
-// the top of the air. It is brighter where the ray crosses the shell at a slant (van Rhijn, 1921), dimmed by the air
-// below the shell, and invisible from above.
-fn airglow(dir: vec3f) -> f32 {
-    let below = 1.0 - smoothstep(0.0, body.air_height_km, body.eye_altitude_km);
-    let ratio = body.radius_km / (body.radius_km + 0.9 * body.air_height_km);
-    let mu = max(dot(dir, body.eye_up), 0.0);
-    let slant = inverseSqrt(max(1.0 - ratio * ratio * (1.0 - mu * mu), 1e-4));
-    return below * 0.45 * min(slant, 5.0) * exp(-0.12 / (mu + 0.06));
+// Airglow comes from a shell: its altitude and its thickness over the height of the air. On the Earth, oxygen shines
+// green at 90 to 97 km.
+const AIRGLOW_AT: f32 = 0.9;
+const AIRGLOW_THICKNESS: f32 = 0.06;
+// Light of the shell at the zenith over that of all airglow; from above, its colour over that of the night sky. Chosen
+// by eye.
+const AIRGLOW_OVERHEAD: f32 = 0.45;
+const AIRGLOW_FROM_ABOVE: vec3f = vec3f(0.10, 0.12, 0.065);
+
+// Airglow along a ray over its mean from the ground: that of the shell, which is brighter where the ray crosses it at a
+// slant (van Rhijn, 1921), and what air below it scatters. From above, the shell is an arc over the limb. `far`: where
+// the ray ends, km; `gaps`: share of light that clouds let through.
+fn airglow(dir: vec3f, far: f32, air: AirLight, gaps: f32) -> vec3f {
+    let eye = body.radius_km + body.eye_altitude_km;
+    let shell = body.radius_km + AIRGLOW_AT * body.air_height_km;
+    let width = AIRGLOW_THICKNESS * body.air_height_km;
+    let mu = dot(dir, body.eye_up);
+    // Distance of the ray from the middle of the planet. It crosses a thin shell at two places, equally far from the
+    // one that is nearest to the middle.
+    let passes_at = eye * sqrt(max(1.0 - mu * mu, 0.0));
+    let squared = (shell - passes_at) * (shell + passes_at);
+    let half_way = sqrt(max(squared, 0.0));
+    // Beside the shell, the difference has no digits left.
+    let softened = sqrt(max(0.5 * (squared + length(vec2f(squared, 2.0 * shell * width))), width * width));
+    let outside = max(passes_at - shell, 0.0) / width;
+    let slant = shell / softened * exp(-0.5 * outside * outside);
+    // Shares of both crossings that are seen.
+    let is_above = smoothstep(-width, width, eye - shell);
+    let enters = is_above * step(mu, 0.0);
+    let leaves = mix(1.0, enters, is_above) * step(half_way - eye * mu, far);
+    let color = mix(vec3f(AIRGLOW_OVERHEAD), AIRGLOW_FROM_ABOVE, is_above);
+    let scattered = 1.0 - air.to_cloud + gaps * (air.to_cloud - air.transmittance);
+    return color * slant * (enters + leaves * gaps * air.transmittance) + scattered;
 }
 
 fn ray_light(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> RayLight {
@@ -202,11 +226,7 @@ fn ray_light(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -
         }
     }
     let air_only = luminance(light);
-    // In front of the sky, the airglow itself is seen; in front of the ground, the part of it that the air scatters.
-    if body.air_height_km > 0.0 {
-        let glow = select(1.0 - air.transmittance, vec3f(airglow(dir)), far >= NOTHING_KM);
-        light += NIGHT_SKY * (NIGHT_AIRGLOW * glow);
-    }
+    if body.air_height_km > 0.0 { light += NIGHT_SKY * NIGHT_AIRGLOW * airglow(dir, far, air, clouds.a); }
     let through = air.transmittance * clouds.a;
     return RayLight(light + air.to_cloud * clouds.rgb + through * scene, air_only, through);
 }

@@ -272,6 +272,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         let passes = let_through(over);
         let hides = 1.0 - exp(-over);
         let sky_left = mix(1.0, passes, hides);
+        let cloud_top = select(1.0, sky_here.top, way.layer == LOW_LAYER);
         let shaded = select(1.0, RAIN_SHADE, way.layer == RAIN_LAYER);
         let diffuse = sunlight * (max(sun_mu, 0.0) * hides * passes * shaded);
         // Seen from above, thin cloud over thick cloud is as bright as both together.
@@ -298,14 +299,16 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             let reach = max(thickness * 0.4, here * frame.pixel_rad * 1.2);
             let ahead_height = saturate1(height + reach * sun_mu / thickness);
             let ahead = cloud_at(way.layer, rel + sun * reach, sky_here, ahead_height, 0.0, footprint);
-            let room = max(select(1.0, sky_here.top, way.layer == LOW_LAYER) - height, 0.05) * thickness * to_sun;
+            let room = max(cloud_top - height, 0.05) * thickness * to_sun;
             let beyond = max(room - reach * 0.5, 0.0);
             let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead.density * beyond * 0.55) + over * to_sun;
             // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The
             // Great and Volumetric).
             let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
                 + 1.5 * phases.z * exp(-0.07 * sun_depth);
-            let ambient = (sky * ((0.45 + 0.55 * height) * sky_left) + diffuse + below * (1.0 - height)) / PI;
+            // The cloud above the point takes from the light of the sky.
+            let depth_above = layer.optical_depth * cloud.column * saturate1(1.0 - height / cloud_top);
+            let ambient = (sky * (let_through(depth_above) * sky_left) + diffuse + below * (1.0 - height)) / PI;
             var lit = grazed;
             if way.layer == LOW_LAYER { lit *= shade(rel, sky_here.covers[way.layer], sun_mu, footprint); }
             // Tops that fall off towards the sun are brighter.

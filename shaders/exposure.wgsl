@@ -25,7 +25,7 @@ const DARK_GROUND_EV: f32 = 2.0;
 const FOLLOWED_DARK_GROUND: f32 = 0.4;
 const NIGHT_EV: f32 = 9.0;
 const FOLLOWED_DUSK: f32 = 0.90;
-const FOLLOWED_NIGHT: f32 = 0.73;
+const FOLLOWED_NIGHT: f32 = 0.79;
 // Share that exposure corrects for brighter means.
 const FOLLOWED_BRIGHT: f32 = 0.1;
 // Highlights: the share of counted pixels that are brighter, the level in stops that they may reach after the
@@ -73,6 +73,9 @@ const WIDEST_LIFT_EV: f32 = 2.0;
 // growth for each stop less.
 const SKY_EV: f32 = 3.8;
 const SKY_FOLLOWED: f32 = 0.49;
+// At night there are no colours to keep: a greater growth below a luminance in stops.
+const NIGHT_SKY_EV: f32 = -12.0;
+const NIGHT_SKY_FOLLOWED: f32 = 0.7;
 const LEAST_EV: f32 = -4.0;
 const MOST_EV: f32 = 14.5;
 // Share of pixels taken for glints and the sun itself. The brightest of the rest set the top of the range.
@@ -182,7 +185,9 @@ fn compute() {
         let dusk = smoothstep(DUSK_FROM_EV.x, DUSK_FROM_EV.y, unlimited);
         ev -= dusk * FOLLOWED_DUSK_SKY * max(sky + ev - DUSK_SKY_EV, 0.0);
         ev -= FOLLOWED_BEYOND * max(top + ev - WHITE_EV, 0.0);
-        let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
+        let dark = min(stops(brightest), 0.0);
+        let night = min(dark - NIGHT_SKY_EV, 0.0);
+        let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * (dark - night) - NIGHT_SKY_FOLLOWED * night);
         ev = clamp(ev, LEAST_EV, most);
     }
     let beyond_ev = clamp(top + ev - WHITE_EV, 0.0, MOST_BEYOND_EV);

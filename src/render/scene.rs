@@ -8,6 +8,7 @@ use super::exposure::Metering;
 use super::tone::Tone;
 use crate::lod::{Camera, Quality, View};
 use crate::planet::{Planet, Star};
+use crate::system::light::StarInSky;
 use crate::terrain::Revision;
 use crate::tiles::Surface;
 use crate::world::MapView;
@@ -56,6 +57,11 @@ impl Sun {
             has_disc: true,
             only: None,
         }
+    }
+
+    /// Its place and size in the sky.
+    pub(crate) fn in_sky(&self) -> StarInSky {
+        StarInSky { dir: self.dir_scene, distance_m: self.distance_m, radius_rad: self.radius_rad }
     }
 
     /// The same light at another place: metres from the camera, scene space.

@@ -7,7 +7,7 @@ use super::shared::MAX_SUNS;
 use crate::giant::Bands;
 use crate::planet::Planet;
 use crate::sphere::LatLon;
-use crate::system::light::{angle_at, reflected};
+use crate::system::light::{StarInSky, angle_at, may_shade, reflected};
 use crate::system::{Ephemeris, Light, Pose, System};
 use crate::tiles::Surface;
 use glam::{DQuat, DVec3};
@@ -15,6 +15,8 @@ use std::sync::Arc;
 
 /// Angular radius in pixels from which a body has a surface.
 const SURFACE_PX: f64 = 1.0;
+/// Least share of a star's disc that is worth a shadow.
+const LEAST_COVERED: f64 = 1e-3;
 /// Least share of a body's starlight that is worth a light of its own when a neighbour reflects it.
 const LEAST_REFLECTED: f64 = 1e-7;
 /// Magnitude of the Sun at one astronomical unit.
@@ -184,16 +186,34 @@ impl Around<'_> {
         (from_own_m - self.eye_planet_m, self.scene_from_system * pose.system_from_body)
     }
 
-    /// The bodies that have a surface in a picture: the camera's own and those as wide as two pixels, nearest first.
+    /// The bodies that have a surface in a picture, nearest first: the camera's own, those as wide as two pixels, and
+    /// those that cover a star of one of these, however small they are.
     pub fn with_surface(&self, projection: &Projection, size_px: [u32; 2]) -> Vec<usize> {
         let pixel_rad = 2.0 * projection.half_extent()[1] / f64::from(size_px[1].max(1));
         let is_wide = |body: usize| {
             body == self.body || self.worlds.radius_m(body) / self.place(body).0.length() > SURFACE_PX * pixel_rad
         };
-        let mut bodies: Vec<usize> =
-            (0..self.poses.len()).filter(|body| self.worlds.planets[*body].is_some() && is_wide(*body)).collect();
+        let all = (0..self.poses.len()).filter(|body| self.worlds.planets[*body].is_some());
+        let (mut bodies, small): (Vec<usize>, Vec<usize>) = all.partition(|body| is_wide(*body));
+        let shading: Vec<usize> =
+            small.into_iter().filter(|small| bodies.iter().any(|body| self.shades(*small, *body))).collect();
+        bodies.extend(shading);
         bodies.sort_by(|a, b| self.place(*a).0.length().total_cmp(&self.place(*b).0.length()));
         bodies
+    }
+
+    /// Whether a body takes light worth seeing from a place on another.
+    fn shades(&self, body: usize, on: usize) -> bool {
+        let own_m = self.poses[on].position_m;
+        let (away_m, radius_m) = (self.poses[body].position_m - own_m, self.worlds.radius_m(body));
+        self.worlds.stars(&self.poses, own_m).iter().any(|(_, star, light)| {
+            let to_star_m = self.poses[*star].position_m - own_m;
+            let distance_m = to_star_m.length();
+            let radius_rad = (light.radius_m() / distance_m).min(1.0).asin();
+            let star = StarInSky { dir: to_star_m / distance_m, distance_m, radius_rad };
+            let of_disc = (radius_m / away_m.length() / radius_rad).powi(2);
+            of_disc > LEAST_COVERED && may_shade(&star, away_m, radius_m, self.worlds.radius_m(on))
+        })
     }
 
     /// Sets the id of the camera's own body, the lights and the points of a scene: stars, scaled so that the brightest
@@ -364,6 +384,22 @@ mod tests {
         assert!((3..=6).contains(&scene.points.len()), "{:?}", scene.points);
         let [brightest, faintest] = [0, scene.points.len() - 1].map(|at| scene.points[at].light[0]);
         assert!(brightest > 2.0 && brightest > 2.0 * faintest, "{brightest} {faintest}");
+    }
+
+    /// By day the moon is a point in a small picture; in totality it has a surface, which darkens the sun and the ground.
+    #[test]
+    fn an_eclipse_does_not_depend_on_the_size_of_the_picture() {
+        let worlds = worlds("hearth.ron");
+        let [aurel, pallor] = ["Aurel", "Pallor"].map(|name| worlds.system.find(name).unwrap());
+        for (time_secs, eclipsed) in [(176_200_800.0, true), (0.0, false)] {
+            let around = worlds.around(aurel, DVec3::X * 6.4e6, time_secs);
+            for size_px in [[64, 36], [640, 400]] {
+                let drawn = around.with_surface(&Projection::symmetric(1.57, 1.6), size_px);
+                assert!(drawn.contains(&aurel) && (!eclipsed || drawn.contains(&pallor)), "{time_secs} {drawn:?}");
+            }
+            let tiny = around.with_surface(&Projection::symmetric(1.57, 1.6), [64, 36]);
+            assert_eq!(tiny.contains(&pallor), eclipsed);
+        }
     }
 
     #[test]

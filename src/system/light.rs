@@ -41,6 +41,29 @@ pub fn visible_share(star_radius_rad: f64, body_radius_rad: f64, apart_rad: f64)
     1.0 - (segment(star, body) + segment(body, star)) / (std::f64::consts::PI * star * star)
 }
 
+/// A star in the sky of a body.
+#[derive(Clone, Copy, Debug)]
+pub struct StarInSky {
+    /// Unit vector from the body to the star.
+    pub dir: DVec3,
+    /// Distance between them.
+    pub distance_m: f64,
+    /// Angular radius of the star.
+    pub radius_rad: f64,
+}
+
+/// Whether a neighbour covers a part of a star somewhere on a body of radius `radius_m`. `away_m`: the neighbour's
+/// centre from the body's. `neighbour_m`: its radius.
+pub fn may_shade(star: &StarInSky, away_m: DVec3, neighbour_m: f64, radius_m: f64) -> bool {
+    let along_m = away_m.dot(star.dir);
+    if along_m <= 0.0 || along_m >= star.distance_m {
+        return false;
+    }
+    let aside_m = (away_m - star.dir * along_m).length();
+    // The penumbra widens from the neighbour on, by the angular radius of the star.
+    aside_m < neighbour_m + along_m * libm::tan(star.radius_rad) + radius_m * 1.05
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,6 +85,17 @@ mod tests {
             let [near, far] = [apart, apart + more].map(|apart| visible_share(star, body, apart));
             prop_assert!((0.0..=1.0).contains(&near) && far >= near - 1e-9, "{near} {far}");
         }
+    }
+
+    #[test]
+    fn shadows_are_looked_for_where_they_can_fall() {
+        let star = StarInSky { dir: DVec3::X, distance_m: 1.496e11, radius_rad: 0.00465 };
+        let shades = |moon_m: DVec3| may_shade(&star, moon_m, 1.737e6, 6.371e6);
+        assert!(shades(DVec3::new(3.844e8, 0.0, 0.0)));
+        assert!(shades(DVec3::new(3.844e8, 9.5e6, 0.0)), "the penumbra touches the limb");
+        assert!(!shades(DVec3::new(3.844e8, 3.0e7, 0.0)) && !shades(DVec3::new(-3.844e8, 0.0, 0.0)));
+        let near = StarInSky { distance_m: 1e8, ..star };
+        assert!(!may_shade(&near, DVec3::new(3.844e8, 0.0, 0.0), 1.737e6, 6.371e6), "it is behind the star");
     }
 
     #[test]

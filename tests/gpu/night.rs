@@ -1,10 +1,10 @@
-//! The night side: aurora, and lights of settlements.
+//! The night side: airglow, clouds, aurora, and lights of settlements.
 
 use crate::support::{camera, earth, frame_of, gpu, surface_of};
 use std::sync::Arc;
 use tellus::bake::{Bake, Format, Map, Projection, Region};
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Atmosphere, Planet};
+use tellus::planet::{Atmosphere, Clouds, Planet};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 
@@ -46,6 +46,42 @@ fn an_aurora_stands_over_its_oval_at_night() {
     assert!((one / none - 1.0).abs() < 1e-3, "{one} {none}");
     let [none, one] = [0.0, 1.0].map(|aurora| sum(&radiance(&with_aurora(aurora), under, -70.0)));
     assert!((one / none - 1.0).abs() < 0.02, "{one} {none}");
+}
+
+/// From above, the shell in which air glows is an arc over the limb, as high as the shell.
+#[test]
+fn airglow_is_an_arc_over_the_limb() {
+    let planet = Arc::new(Planet { clouds: None, ..earth() });
+    let air_km = planet.atmosphere.as_ref().unwrap().height_km;
+    let eye_km = planet.radius_km + 400.0;
+    let dip_deg = |height_km: f64| ((planet.radius_km + height_km) / eye_km).acos().to_degrees();
+    let pixels = radiance(&planet, [0.0, -70.0, 400e3, 0.0, -dip_deg(0.0)], 110.0);
+    assert!(pixels.iter().flatten().all(|value| value.is_finite()));
+    let rows: Vec<f64> = pixels.chunks(96).map(|row| sum(&row[46..50])).collect();
+    let brightest = (0..54).max_by(|a, b| rows[*a].total_cmp(&rows[*b])).unwrap();
+    // The limb lies between the middle rows.
+    let half_rad = 0.5 * Camera::DEFAULT_FOV_Y_RAD;
+    let rise_rad = (dip_deg(0.0) - dip_deg(0.9 * air_km)).to_radians();
+    let expected = 26.5 - 27.0 * rise_rad.tan() / half_rad.tan();
+    assert!((brightest as f64 - expected).abs() <= 1.0, "row {brightest} instead of {expected}");
+    assert!(rows[brightest] > 5.0 * rows[40] && rows[brightest] > 5.0 * rows[10], "{rows:?}");
+    // A giant is so wide that squares of lengths have few digits.
+    let giant = Arc::new(Planet { radius_km: 70_000.0, ..(*planet).clone() });
+    for altitude_m in [1e5, 1e7, 3e8] {
+        let pixels = radiance(&giant, [0.0, -70.0, altitude_m, 0.0, -60.0], 110.0);
+        assert!(pixels.iter().flatten().all(|value| value.is_finite()), "from {altitude_m} m");
+    }
+}
+
+/// From below, clouds hide the airglow: they are darker than the sky beside them.
+#[test]
+fn clouds_are_dark_at_night() {
+    let with = |coverage: f64| {
+        let clouds = earth().clouds.map(|clouds| Clouds { coverage, middle: 0.0, veil: 0.0, fog: 0.0, ..clouds });
+        sum(&radiance(&Arc::new(Planet { clouds, ..earth() }), [0.0, -70.0, 2.0, 0.0, 60.0], 110.0))
+    };
+    let (clear, overcast) = (with(0.0), with(1.0));
+    assert!(overcast < 0.75 * clear && overcast > 0.1 * clear, "{overcast} under clouds, {clear} without");
 }
 
 #[test]
