@@ -26,6 +26,8 @@ const RELIEF: f32 = 0.5;
 const RELIEF_LEAST_SUN: f32 = 0.15;
 const RELIEF_LIMITS: vec2f = vec2f(0.3, 1.5);
 
+// Albedo of the ground without clouds over it, by that of the preset, which is for all that is under the air.
+const GROUND_UNDER_CLOUDS: f32 = 0.5;
 // How much steps through rain grow, 0 to 1.
 const RAIN_BEND: f32 = 0.2;
 // Share of the light under clouds that is left where it rains: there the clouds are thicker than their mean.
@@ -196,7 +198,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     let sun_mu = dot(up, sun);
     let sunlight = active_sun.irradiance * sun_transmittance(bottom + thickness * 0.7, sun_mu);
     let sky = sky_irradiance(bottom + thickness, sun_mu);
-    let below = sunlight * max(sun_mu, 0.0) * 0.15 + sky * 0.15;
+    let from_ground = GROUND_UNDER_CLOUDS * body.ground_albedo * (sunlight * max(sun_mu, 0.0) + sky);
     let cosine = dot(dir, sun);
     let phases = vec3f(
         mix(lobe(cosine, 0.75), lobe(cosine, -0.15), 0.35),
@@ -205,6 +207,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     );
     let to_sun = 1.0 / max(abs(sun_mu), 0.07);
     let from_above = saturate1(-2.0 * dot(dir, up));
+    let not_above = 1.0 - smoothstep(0.0, 0.5, -dot(dir, up));
     // From the side, light escapes from thin layers as well, but their long paths hold more of it.
     let from_side = 1.0 - smoothstep(-0.1, 0.1, dot(dir, up));
     // From above, one sees tops that a low sun only grazes (law of Lommel and Seeliger); the march is too coarse to
@@ -273,6 +276,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         let hides = 1.0 - exp(-over);
         let sky_left = mix(1.0, passes, hides);
         let cloud_top = select(1.0, sky_here.top, way.layer == LOW_LAYER);
+        let below = from_ground * let_through_gaps(layer.optical_depth, sky_here.covers[way.layer]);
         let shaded = select(1.0, RAIN_SHADE, way.layer == RAIN_LAYER);
         let diffuse = sunlight * (max(sun_mu, 0.0) * hides * passes * shaded);
         // Seen from above, thin cloud over thick cloud is as bright as both together.
@@ -302,12 +306,12 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             let room = max(cloud_top - height, 0.05) * thickness * to_sun;
             let beyond = max(room - reach * 0.5, 0.0);
             let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead.density * beyond * 0.55) + over * to_sun;
+            // Seen from below or beside, light that was scattered before comes through the cloud above the point.
+            let depth_above = layer.optical_depth * cloud.column * saturate1(1.0 - height / cloud_top);
+            let depth = max(sun_depth, depth_above * max(sun_mu, 0.0) * not_above);
             // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The
             // Great and Volumetric).
-            let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
-                + 1.5 * phases.z * exp(-0.07 * sun_depth);
-            // The cloud above the point takes from the light of the sky.
-            let depth_above = layer.optical_depth * cloud.column * saturate1(1.0 - height / cloud_top);
+            let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * depth) + 1.5 * phases.z * exp(-0.07 * depth);
             let ambient = (sky * (let_through(depth_above) * sky_left) + diffuse + below * (1.0 - height)) / PI;
             var lit = grazed;
             if way.layer == LOW_LAYER { lit *= shade(rel, sky_here.covers[way.layer], sun_mu, footprint); }

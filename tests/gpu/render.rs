@@ -440,7 +440,7 @@ fn the_horizon_is_no_line_inside_clouds() {
     // A line would differ from the rows ten above and ten below it.
     for (i, at) in rows.windows(21).enumerate() {
         let line = (at[10] - 0.5 * (at[0] + at[20])).abs() / at[10];
-        assert!(line < 0.012, "row {}: {line}", i + 10);
+        assert!(line < 0.014, "row {}: {line}", i + 10);
     }
 }
 
