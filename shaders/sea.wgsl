@@ -289,6 +289,7 @@ fn water_radiance(water: Water) -> vec3f {
     var downwelling = vec3f(0.0);
     var direct = vec3f(0.0);
     var mirrored_light = vec3f(0.0);
+    var by_fog = 0.0;
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun_at(i, body.eye_km + rel_km);
         let sun = active_sun.dir;
@@ -301,6 +302,7 @@ fn water_radiance(water: Water) -> vec3f {
         let shadow = clouds.straight * select(1.0, water.visible.star, i == 0u);
         let diffused = sunlight * max(sun_mu, 0.0) * share.y;
         let straight = sunlight * shadow * max(sun_mu, 0.0);
+        by_fog = clouds.returned;
         direct += straight;
         downwelling += straight + sky_irradiance(h, sun_mu) * share.x + diffused;
         if ice.share < 1.0 {
@@ -324,6 +326,7 @@ fn water_radiance(water: Water) -> vec3f {
         light = mix(light, FOAM_ALBEDO * downwelling / PI, lace(white, rel_m, footprint_m));
         light += body.water_glow;
     }
-    let white = ice.albedo * downwelling / PI;
+    // Light goes to and fro between ice and fog.
+    let white = ice.albedo * downwelling / (PI * (1.0 - ice.share * ice.albedo * by_fog));
     return mix(light, white, ice.share);
 }
