@@ -271,7 +271,10 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         let shortening = clamp(-log(first) / log(max(layer.stride.z, 2.0)), SHORTENING.x, SHORTENING.y);
         let from_sun = sun_share(body.eye_km + dir * t);
         // Light after the layers above: what they leave of direct light, and what they make diffuse.
-        let over = depth_over(way.layer, sky_here, 1.0);
+        // Rain falls from closed clouds.
+        var sky_over_layer = sky_here;
+        if way.layer == RAIN_LAYER { sky_over_layer.covers[LOW_LAYER] = 1.0; }
+        let over = depth_over(way.layer, sky_over_layer, 1.0);
         let passes = let_through(over);
         let hides = 1.0 - exp(-over);
         let sky_left = mix(1.0, passes, hides);
