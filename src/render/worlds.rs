@@ -386,7 +386,7 @@ mod tests {
         assert!(brightest > 2.0 && brightest > 2.0 * faintest, "{brightest} {faintest}");
     }
 
-    /// By day the moon is a point in a small picture; in totality it has a surface, which darkens the sun and the ground.
+    /// In a small picture the moon is a point by day. In totality it has a surface, which darkens sun and ground.
     #[test]
     fn an_eclipse_does_not_depend_on_the_size_of_the_picture() {
         let worlds = worlds("hearth.ron");
