@@ -26,7 +26,7 @@ const RELIEF: f32 = 0.5;
 const RELIEF_LEAST_SUN: f32 = 0.15;
 const RELIEF_LIMITS: vec2f = vec2f(0.3, 1.5);
 
-// Albedo of the ground without clouds over it, by that of the preset, which is for all that is under the air.
+// Albedo of the ground over that of the preset, which counts clouds in.
 const GROUND_UNDER_CLOUDS: f32 = 0.5;
 // How much steps through rain grow, 0 to 1.
 const RAIN_BEND: f32 = 0.2;
@@ -207,6 +207,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     );
     let to_sun = 1.0 / max(abs(sun_mu), 0.07);
     let from_above = saturate1(-2.0 * dot(dir, up));
+    // Without a kink at the horizon, which would show as a line.
     let not_above = 1.0 - smoothstep(0.0, 0.5, -dot(dir, up));
     // From the side, light escapes from thin layers as well, but their long paths hold more of it.
     let from_side = 1.0 - smoothstep(-0.1, 0.1, dot(dir, up));
@@ -270,8 +271,8 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         let first = FIRST_PART / (extinction * found.density * (t1 - enter));
         let shortening = clamp(-log(first) / log(max(layer.stride.z, 2.0)), SHORTENING.x, SHORTENING.y);
         let from_sun = sun_share(body.eye_km + dir * t);
-        // Light after the layers above: what they leave of direct light, and what they make diffuse.
-        // Rain falls from closed clouds.
+        // Light after the layers above: what they leave of direct light, and what they make diffuse. Rain falls from
+        // closed clouds.
         var sky_over_layer = sky_here;
         if way.layer == RAIN_LAYER { sky_over_layer.covers[LOW_LAYER] = 1.0; }
         let over = depth_over(way.layer, sky_over_layer, 1.0);

@@ -69,7 +69,8 @@ fn airglow_is_an_arc_over_the_limb() {
     let giant = Arc::new(Planet { radius_km: 70_000.0, ..(*planet).clone() });
     for altitude_m in [1e5, 1e7, 3e8] {
         let pixels = radiance(&giant, [0.0, -70.0, altitude_m, 0.0, -60.0], 110.0);
-        assert!(pixels.iter().flatten().all(|value| value.is_finite()), "from {altitude_m} m");
+        // Radiance that is no number may be clamped to the greatest one.
+        assert!(pixels.iter().flatten().all(|value| value.is_finite() && *value < 1.0), "from {altitude_m} m");
     }
 }
 
