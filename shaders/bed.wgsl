@@ -7,6 +7,8 @@ const BED_PASSES: u32 = 3u;
 const FIRST_DEPTH_M: f32 = 3.0;
 // Distance of ground where the picture has none, metres.
 const NO_BED_M: f32 = 1e5;
+// Distance of the ground in those pixels up to which its slope counts, over that of the three points.
+const FARTHEST_BED: f32 = 32.0;
 // Distance of those pixels that looks at different ground.
 const APART_PX: f32 = 8.0;
 
@@ -59,8 +61,10 @@ fn column_under(calm_m: vec3f, up: vec3f, footprint_m: f32, ice: f32) -> Column 
         let middle = (at[0] + at[1] + at[2]) / 3.0;
         let area = a.x * b.y - a.y * b.x;
         deepening = vec2f(a.z * b.y - b.z * a.y, a.x * b.z - b.x * a.z) / area;
-        // Points in a line, and beds as steep as a rock, have no slope that waves follow.
-        if abs(area) < 0.1 * reach_m * reach_m || !(dot(deepening, deepening) < 1.0) { deepening = vec2f(0.0); }
+        // Points in a line, and beds as steep as a rock, have no slope that waves follow. The slope of a bed far away
+        // tells nothing about the bed here.
+        let is_far = length(middle.xy) > FARTHEST_BED * reach_m;
+        if is_far || abs(area) < 0.1 * reach_m * reach_m || !(dot(deepening, deepening) < 1.0) { deepening = vec2f(0.0); }
         depth_m = clamp(middle.z - dot(deepening, middle.xy), 0.0, 1e4);
     }
     return Column(calm_m, depth_m, deepening.x * east + deepening.y * north, ice);

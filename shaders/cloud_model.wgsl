@@ -283,6 +283,14 @@ fn let_through(depth: f32) -> f32 { return 1.0 / (1.0 + 0.12 * depth); }
 // The same for a layer that covers a share of the sky.
 fn let_through_gaps(depth: f32, cover: f32) -> f32 { return 1.0 - cover * (1.0 - let_through(depth)); }
 
+// Share of light that the layers over a layer let through, most of it diffuse.
+fn passed_over(number: u32, sky: Sky) -> f32 {
+    let low = let_through_gaps(body.cloud_layers[LOW_LAYER].optical_depth, sky.covers[LOW_LAYER]);
+    let middle = let_through_gaps(body.cloud_layers[MIDDLE_LAYER].optical_depth, sky.covers[MIDDLE_LAYER]);
+    let veil = let_through_gaps(body.veil_depth * (1.0 - VEIL_AHEAD), sky.veil);
+    return veil * select(1.0, middle, number < MIDDLE_LAYER) * select(1.0, low, number < LOW_LAYER);
+}
+
 // Light that arrives under clouds, as shares of that without them.
 struct UnderClouds {
     // Of direct sunlight: what arrives straight
@@ -328,9 +336,7 @@ fn under_clouds(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> UnderClouds 
     let fog_depth = fog.optical_depth * fog_left;
     let others = exp(-depth_over(LOW_LAYER, sky, path) - with_gaps(fog_depth * path, sky.covers[FOG_LAYER]));
     let fog_passes = let_through_gaps(fog_depth, sky.covers[FOG_LAYER]);
-    let others_pass = fog_passes
-        * let_through_gaps(body.cloud_layers[MIDDLE_LAYER].optical_depth, sky.covers[MIDDLE_LAYER])
-        * let_through_gaps(body.veil_depth * (1.0 - VEIL_AHEAD), sky.veil);
+    let others_pass = fog_passes * passed_over(LOW_LAYER, sky);
     let cover = sky.covers[LOW_LAYER];
     let depths = low.optical_depth * left * vec2f(density * sky.top, 1.0);
     let through = exp(-depths * path);

@@ -271,18 +271,17 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         let first = FIRST_PART / (extinction * found.density * (t1 - enter));
         let shortening = clamp(-log(first) / log(max(layer.stride.z, 2.0)), SHORTENING.x, SHORTENING.y);
         let from_sun = sun_share(body.eye_km + dir * t);
-        // Light after the layers above: what they leave of direct light, and what they make diffuse. Rain falls from
-        // closed clouds.
-        var sky_over_layer = sky_here;
-        if way.layer == RAIN_LAYER { sky_over_layer.covers[LOW_LAYER] = 1.0; }
-        let over = depth_over(way.layer, sky_over_layer, 1.0);
-        let passes = let_through(over);
-        let hides = 1.0 - exp(-over);
-        let sky_left = mix(1.0, passes, hides);
         let cloud_top = select(1.0, sky_here.top, way.layer == LOW_LAYER);
-        let below = from_ground * let_through_gaps(layer.optical_depth, sky_here.covers[way.layer]);
-        let shaded = select(1.0, RAIN_SHADE, way.layer == RAIN_LAYER);
-        let diffuse = sunlight * (max(sun_mu, 0.0) * hides * passes * shaded);
+        // Shares of sunlight and of all light that the layers above leave. Rain falls from closed cloud.
+        var straight = exp(-depth_over(way.layer, sky_here, to_sun));
+        var passed_above = passed_over(way.layer, sky_here);
+        if way.layer == RAIN_LAYER {
+            let low_depth = body.cloud_layers[LOW_LAYER].optical_depth;
+            straight = exp(-depth_over(LOW_LAYER, sky_here, to_sun) - low_depth * to_sun);
+            passed_above = RAIN_SHADE * passed_over(LOW_LAYER, sky_here) * let_through(low_depth);
+        }
+        let diffuse = sunlight * (max(sun_mu, 0.0) * max(passed_above - straight, 0.0)) + sky * passed_above;
+        let below = from_ground * passed_above * let_through_gaps(layer.optical_depth, sky_here.covers[way.layer]);
         // Seen from above, thin cloud over thick cloud is as bright as both together.
         let under = depth_beneath(way.layer, sky_here);
         var part_from = enter;
@@ -309,14 +308,15 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             let ahead = cloud_at(way.layer, rel + sun * reach, sky_here, ahead_height, 0.0, footprint);
             let room = max(cloud_top - height, 0.05) * thickness * to_sun;
             let beyond = max(room - reach * 0.5, 0.0);
-            let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead.density * beyond * 0.55) + over * to_sun;
+            let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead.density * beyond * 0.55);
             // Seen from below or beside, light that was scattered before comes through the cloud above the point.
             let depth_above = layer.optical_depth * cloud.column * saturate1(1.0 - height / cloud_top);
             let depth = max(sun_depth, depth_above * max(sun_mu, 0.0) * not_above);
             // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The
             // Great and Volumetric).
-            let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * depth) + 1.5 * phases.z * exp(-0.07 * depth);
-            let ambient = (sky * (let_through(depth_above) * sky_left) + diffuse + below * (1.0 - height)) / PI;
+            let orders = vec3f(exp(-sun_depth), 0.75 * exp(-0.3 * depth), 1.5 * let_through(depth));
+            let direct = straight * dot(phases, orders);
+            let ambient = (diffuse * let_through(depth_above) + below * (1.0 - height)) / PI;
             var lit = grazed;
             if way.layer == LOW_LAYER { lit *= shade(rel, sky_here.covers[way.layer], sun_mu, footprint); }
             // Tops that fall off towards the sun are brighter.

@@ -6,9 +6,10 @@
 //! - `biomes`, `colours`, `materials`: the colours of the ground
 //! - `clouds`: clouds over time, drafts of their maps
 //! - `cloud_edges`: clouds near the horizon: stairs and stripes
+//! - `cloud_light`: light under clouds: rain, fog, night
 //! - `lakes`: water of planets with a structure
 //! - `neighbours`: shadows and light between bodies, rings
-//! - `night`: aurora, lights of settlements
+//! - `night`: airglow, aurora, lights of settlements
 //! - `history`: clouds carried over while the camera moves, and still pictures that converge
 //! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures and ray casts
 //! - `planets`: the shipped presets, against goldens
@@ -23,6 +24,7 @@ mod air;
 mod albedo;
 mod biomes;
 mod cloud_edges;
+mod cloud_light;
 mod clouds;
 mod colours;
 mod edges;

@@ -183,3 +183,26 @@ fn a_glowing_sea_shines_at_night() {
     };
     assert!(light(0.0) < 10 && light(1.0) > 150);
 }
+
+/// Where the bed is so far away that it tells nothing about the depth here, waves are those of deep water: single pixels
+/// had those of shallow water.
+#[test]
+fn a_deep_sea_has_no_specks() {
+    let planet = Arc::new(Planet { clouds: None, ..preset("maren.ron") });
+    let camera = camera(&planet, 8.0, -35.0, 2.0, 60.0, 12.0);
+    let view = View { camera, size_px: [640, 360], quality: Quality::Medium };
+    let surface = surface_of(&planet, &view);
+    let mut gpu = gpu();
+    gpu.draw_only(&frame_of(&surface, &planet, view, LatLon::from_degrees(20.0, -20.0).direction()), 1);
+    let ([width, height], light) = gpu.renderer.radiance().unwrap();
+    let (width, height) = (width as usize, height as usize);
+    let green = |x: usize, y: usize| f64::from(light[y * width + x][1]);
+    // Darker than all pixels around.
+    let is_speck = |x: usize, y: usize| {
+        let mut around = (0..9).filter(|k| *k != 4).map(|k| green(x + k % 3 - 1, y + k / 3 - 1));
+        around.all(|other| green(x, y) < 0.8 * other)
+    };
+    let below = height * 7 / 10..height - 1;
+    let specks = below.flat_map(|y| (1..width - 1).map(move |x| (x, y))).filter(|&(x, y)| is_speck(x, y)).count();
+    assert!(specks <= 12, "{specks} specks");
+}
