@@ -216,6 +216,9 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     let high = max(sun_mu, 0.0) + 0.02;
     let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
+    // How far light of high orders follows diffusion instead, by the sine of the sun's elevation
+    let diffuses = smoothstep(0.1, 0.5, sun_mu);
+
     let is_fine = frame.pattern_quality > 0.0;
     let halvings = select(SEARCH.x, SEARCH.y, is_fine);
     // At low quality, the sky over a short way lies between those over its ends.
@@ -313,8 +316,9 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             let depth_above = layer.optical_depth * cloud.column * saturate1(1.0 - height / cloud_top);
             let depth = max(sun_depth, depth_above * max(sun_mu, 0.0) * not_above);
             // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The
-            // Great and Volumetric).
-            let orders = vec3f(exp(-sun_depth), 0.75 * exp(-0.3 * depth), 1.5 * let_through(depth));
+            // Great and Volumetric). Light of a high sun diffuses through thick cloud.
+            let high_orders = mix(exp(-0.07 * depth), let_through(depth), diffuses);
+            let orders = vec3f(exp(-sun_depth), 0.75 * exp(-0.3 * depth), 1.5 * high_orders);
             let direct = straight * dot(phases, orders);
             let ambient = (diffuse * let_through(depth_above) + below * (1.0 - height)) / PI;
             var lit = grazed;

@@ -3,7 +3,7 @@
 // of the multiple-scattering LUT. The moments in that LUT suffice for light that is scattered on, but not for what
 // dust scatters to the eye, so here the light seen from all around is summed with the exact phase functions.
 #include "screen.wgsl"
-#include "glow_moments.wgsl"
+#include "glow_nodes.wgsl"
 
 // Stands in the place of the LUT of the sky
 @group(1) @binding(2) var seen_lut: texture_2d_array<f32>;
@@ -11,15 +11,16 @@
 // Light seen by the point of a pixel of the multiple-scattering LUT, scattered once more. The sum is divided by that
 // over even light: directions are too far apart to resolve a sharp phase function. `by_rayleigh`: the share of
 // molecules in all scattering; haze has the rest. `turns` and `sines`: cosines and sines of the azimuths.
-fn rescattered(pixel: vec2i, h: f32, by_rayleigh: vec3f, mu: f32, turns: vec3f, sines: vec3f) -> Lights {
+fn rescattered(pixel: vec2i, at: vec2f, by_rayleigh: vec3f, mu: f32, turns: vec3f, sines: vec3f) -> Lights {
     // Factors of the phase functions that do not depend on the direction cancel.
     let g = body.mie_anisotropy;
     let across = flat_of(mu);
     // For each colour and for even light: sums of the three azimuths
     var rayleigh = mat4x3f();
     var mie = mat4x3f();
-    for (var i = 0u; i < SEEN_RINGS; i++) {
-        let ring = seen_ring(h, i);
+    let rings = rings_under(at.y);
+    for (var i = 0u; i < rings.count; i++) {
+        let ring = seen_ring(at.x, rings, i);
         let along = mu * ring.mu;
         let both_across = across * flat_of(ring.mu);
         for (var k = 0u; k < SEEN_TURNS; k++) {
@@ -61,18 +62,8 @@ fn fragment(@builtin(position) position: vec4f) -> Turns {
     set_lut_sun();
     let to = to_turns(position);
     let at = to.at;
-    var light: Lights;
-    if all_is_dark(at.x, at.y) { return turns_of(light); }
-    let moments = share_of_moments(at.y);
-    if moments < 1.0 {
-        let sines = sqrt(max(vec3f(0.0), 1.0 - to.turns * to.turns));
-        light = rescattered(vec2i(to.pixel), at.x, to.by_rayleigh, to.mu, to.turns, sines);
-    }
-    if moments > 0.0 {
-        let other = all_by_moments(to);
-        light.first = mix(light.first, other.first, moments);
-        light.second = mix(light.second, other.second, moments);
-        light.third = mix(light.third, other.third, moments);
-    }
-    return turns_of(light);
+    var none: Lights;
+    if all_is_dark(at.x, at.y) { return turns_of(none); }
+    let sines = sqrt(max(vec3f(0.0), 1.0 - to.turns * to.turns));
+    return turns_of(rescattered(vec2i(to.pixel), at, to.by_rayleigh, to.mu, to.turns, sines));
 }

@@ -50,22 +50,28 @@ fn all_is_dark(h: f32, sun_mu: f32) -> bool {
     return asin(sun_mu) < -dips - max(active_sun.radius_rad, 0.0015) - 0.02;
 }
 
-// LUTs have most columns around the terminator: at these cosines of the sun to the zenith, by day and in the planet's
-// shadow, a quarter as many as there.
-const DAYLIGHT: f32 = 0.3;
+// LUTs have most columns around the terminator: where bent_sun has these values, by day and in the planet's shadow, a
+// quarter as many as there.
+const DAYLIGHT: f32 = 0.1;
 const TWILIGHT: f32 = 0.15;
+
+// A cosine of the sun to the zenith, bent by day: the light around a high sun moves with it, so that columns there must
+// lie as close in the angle as others.
+fn bent_sun(mu: f32) -> f32 { return select(mu / (1.0 + sqrt(max(1.0 - mu, 0.0))), mu, mu < 0.0); }
 
 // Where a cosine of the sun to the zenith lies between the first column of a LUT (0) and the last one (1).
 fn unit_of_sun(mu: f32) -> f32 {
     let bend = select(TWILIGHT, DAYLIGHT, mu >= 0.0);
-    return 0.5 + 0.5 * (1.0 + bend) * mu / (abs(mu) + bend);
+    let bent = bent_sun(mu);
+    return 0.5 + 0.5 * (1.0 + bend) * bent / (abs(bent) + bend);
 }
 
 // The inverse of unit_of_sun.
 fn sun_cosine_at(x: f32) -> f32 {
     let bend = select(TWILIGHT, DAYLIGHT, x >= 0.5);
     let y = (2.0 * x - 1.0) / (1.0 + bend);
-    return clamp(bend * y / (1.0 - abs(y)), -1.0, 1.0);
+    let bent = clamp(bend * y / (1.0 - abs(y)), -1.0, 1.0);
+    return select(bent * (2.0 - bent), bent, bent < 0.0);
 }
 
 // Scales the dim light of deep twilight into the range of 16-bit floats.
@@ -143,10 +149,11 @@ fn scattered_again(h: f32, sun_mu: f32, mu: f32, cosine: f32) -> vec3f {
     let turn_node = u32(first.y);
     let nearer = glow_of_turn(at, first.x, part.x, turn_node);
     let root = mix(nearer, glow_of_turn(at, first.x, part.x, turn_node + 1u), part.y);
-    return root * root / MULTISCATTER_SCALE;
+    let square = root * root;
+    return square * square / MULTISCATTER_SCALE;
 }
 
-// Square root of that light at a node of the azimuth, between two nodes of the cosine to the zenith. `at`: texel in a
+// Fourth root of that light at a node of the azimuth, between two nodes of the cosine to the zenith. `at`: texel in a
 // tile.
 fn glow_of_turn(at: vec2f, view: f32, part: f32, turn: u32) -> vec3f {
     let size = vec2f(GLOW_NODES.x, f32(GLOW_HALVES)) * MULTISCATTER_SIZE;

@@ -1,10 +1,10 @@
 // Light that points of the multiple-scattering LUT see from directions all around: a tile for each elevation (across)
-// and each half of the azimuths (down), and a layer for each azimuth in it. Square roots of radiance, as in that LUT.
+// and each third of the azimuths (down), and a layer for each azimuth in it. Square roots of radiance, as in that LUT.
 #include "screen.wgsl"
 #include "glow_model.wgsl"
 #include "skylit.wgsl"
 
-const STEPS: u32 = 5u;
+const STEPS: u32 = 7u;
 
 // A point, and a ring of directions from it.
 struct Seen {
@@ -44,10 +44,11 @@ fn fragment(@builtin(position) position: vec4f) -> Turns {
     let place = tiled(position);
     let at = point_of_texel(place.pixel);
     var none: Turns;
-    if all_is_dark(at.x, at.y) || share_of_moments(at.y) >= 1.0 { return none; }
+    let rings = rings_under(at.y);
+    if all_is_dark(at.x, at.y) || place.tile.x >= rings.count { return none; }
     let radius = body.radius_km;
     let top = body.air_height_km;
-    let ring = seen_ring(at.x, place.tile.x);
+    let ring = seen_ring(at.x, rings, place.tile.x);
     let seen = Seen(at, ring, radius, haze_moments());
     let first = TURNS_AT_ONCE * place.tile.y;
     let turns = vec3f(SEEN_AZIMUTHS[first].x, SEEN_AZIMUTHS[first + 1u].x, SEEN_AZIMUTHS[first + 2u].x);
@@ -80,5 +81,5 @@ fn fragment(@builtin(position) position: vec4f) -> Turns {
         light.second += transmittance * light_of_ground(seen, path_km, cosines.y);
         light.third += transmittance * light_of_ground(seen, path_km, cosines.z);
     }
-    return turns_of(light);
+    return Turns(vec4f(root_of(light.first), 1.0), vec4f(root_of(light.second), 1.0), vec4f(root_of(light.third), 1.0));
 }

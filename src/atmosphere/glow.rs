@@ -16,29 +16,39 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Nodes along the zenith angle of the direction of scattering, and along its azimuth from the sun, as in the shaders.
-const VIEWS: usize = 9;
+const VIEWS: usize = 11;
 const TURNS: usize = 6;
 /// A node's place is this power of the squared sine of half its azimuth.
 const TURN_POWER: f64 = 0.6;
-/// Directions of the light that a point sees: Gauss-Legendre nodes between the horizon (0) and zenith or nadir (1) with
-/// their weights, and azimuths from the sun. The other half of the sphere is the mirror image.
-const UPPER: [(f64, f64); 5] = [
-    (0.046_910_077_030_668, 0.118_463_442_528_095),
-    (0.230_765_344_947_158, 0.239_314_335_249_683),
-    (0.5, 0.284_444_444_444_444),
-    (0.769_234_655_052_842, 0.239_314_335_249_683),
-    (0.953_089_922_969_332, 0.118_463_442_528_095),
+/// Rings of directions of the light that a point sees, over the horizon: Gauss-Legendre nodes between the horizon (0)
+/// and the zenith (1) with their weights. When the sun has set, light comes from along the horizon, and there are more.
+const BY_DAY: [(f64, f64); 4] = [
+    (0.069_431_844_202_974, 0.173_927_422_568_727),
+    (0.330_009_478_207_572, 0.326_072_577_431_273),
+    (0.669_990_521_792_428, 0.326_072_577_431_273),
+    (0.930_568_155_797_026, 0.173_927_422_568_727),
 ];
+const AT_NIGHT: [(f64, f64); 7] = [
+    (0.025_446_043_828_621, 0.064_742_483_084_435),
+    (0.129_234_407_200_303, 0.139_852_695_744_638),
+    (0.297_077_424_311_301, 0.190_915_025_252_56),
+    (0.5, 0.208_979_591_836_735),
+    (0.702_922_575_688_699, 0.190_915_025_252_56),
+    (0.870_765_592_799_697, 0.139_852_695_744_638),
+    (0.974_553_956_171_379, 0.064_742_483_084_435),
+];
+/// Rings below the horizon, to the nadir (1).
 const LOWER: [(f64, f64); 2] = [(0.211_324_865_405_187, 0.5), (0.788_675_134_594_813, 0.5)];
-const SEEN_TURNS: usize = 6;
+/// Azimuths of these directions from the sun, in half a turn. The other half is the mirror image.
+const SEEN_TURNS: usize = 9;
+/// At night, places of rings are this power of their nodes, denser at the horizon. It grows to that over the second
+/// figure: a cosine of the sun's zenith angle, negated.
+const NIGHT_POWER: f64 = 1.7;
+const NIGHT_OVER: f64 = 0.12;
 /// Steps along each direction.
-const STEPS: u32 = 5;
-/// Cosine of the sun's zenith angle, negated, from which on moments replace the sums: in the planet's shadow, light
-/// comes from a part of the sky that is narrower than the directions are apart. Over the second figure, both are mixed.
-const SHADOW: f64 = 0.05;
-const SHADOW_BLEND: f64 = 0.03;
+const STEPS: u32 = 7;
 
-/// Light that air scatters for a second time or more. Values are square roots of radiance per scattering coefficient.
+/// Light that air scatters for a second time or more. Values are fourth roots of radiance per scattering coefficient.
 #[derive(Clone, Debug)]
 pub(super) struct GlowLut {
     top: f64,
@@ -59,21 +69,12 @@ impl GlowLut {
     pub(super) fn new(lit: &SunlitAir, lut: &MultiscatterLut) -> Self {
         let texel = |i: usize| {
             let (altitude, sun_mu) = point_at(i, lit.medium.top);
-            let shadow = ((-SHADOW - sun_mu) / SHADOW_BLEND).clamp(0.0, 1.0);
-            let seen = if shadow < 1.0 { seen(lit, lut, altitude, sun_mu) } else { Vec::new() };
+            let seen = seen(lit, lut, altitude, sun_mu);
             let shares = Shares::new(&lit.medium, altitude);
             std::array::from_fn(|view| {
                 std::array::from_fn(|turn| {
                     let (mu, turn) = (view_mu(view as f64 / (VIEWS - 1) as f64), cosine_of_turn(turn));
-                    let mut light = DVec3::ZERO;
-                    if shadow < 1.0 {
-                        light += shares.rescattered(&lit.medium, &seen, mu, turn) * (1.0 - shadow);
-                    }
-                    if shadow > 0.0 {
-                        let cosine = mu * sun_mu + flat(mu) * flat(sun_mu) * turn;
-                        light += by_moments(lit, lut, (altitude, sun_mu), &shares, Direction { mu, cosine }) * shadow;
-                    }
-                    light.map(f64::sqrt)
+                    shares.rescattered(&lit.medium, &seen, mu, turn).map(|light| light.sqrt().sqrt())
                 })
             })
         };
@@ -94,7 +95,8 @@ impl GlowLut {
             let nodes = &self.texels[texel];
             nodes[i][j].lerp(nodes[i + 1][j], u).lerp(nodes[i][j + 1].lerp(nodes[i + 1][j + 1], u), v)
         });
-        root * root
+        let square = root * root;
+        square * square
     }
 }
 
@@ -116,8 +118,14 @@ fn cosine_of_turn(node: usize) -> f64 {
 /// The light that a point sees from all around.
 fn seen(lit: &SunlitAir, lut: &MultiscatterLut, altitude: f64, sun_mu: f64) -> Vec<Seen> {
     let horizon = horizon_mu(lit.radius, altitude);
-    let side = |span: f64| move |&(x, weight): &(f64, f64)| (horizon + span * x, weight * 0.5 * span.abs());
-    let rings = UPPER.iter().map(side(1.0 - horizon)).chain(LOWER.iter().map(side(-1.0 - horizon)));
+    let upper: &[(f64, f64)] = if sun_mu < 0.0 { &AT_NIGHT } else { &BY_DAY };
+    let power = 1.0 + (NIGHT_POWER - 1.0) * (-sun_mu / NIGHT_OVER).clamp(0.0, 1.0);
+    let side = |span: f64| {
+        move |&(x, weight): &(f64, f64)| {
+            (horizon + span * x.powf(power), weight * power * x.powf(power - 1.0) * 0.5 * span.abs())
+        }
+    };
+    let rings = upper.iter().map(side(1.0 - horizon)).chain(LOWER.iter().map(side(-1.0 - horizon)));
     let turns = (0..SEEN_TURNS).map(|i| (PI * (i as f64 + 0.5) / SEEN_TURNS as f64).cos());
     rings
         .flat_map(|(mu, share)| turns.clone().map(move |turn| (mu, turn, share / SEEN_TURNS as f64)))
@@ -175,12 +183,4 @@ impl Shares {
         }
         self.rayleigh * rayleigh.0 / rayleigh.1 + self.mie * mie.0 / mie.1
     }
-}
-
-/// The same by moments, and what the peak of haze has added to the beam.
-fn by_moments(lit: &SunlitAir, lut: &MultiscatterLut, at: (f64, f64), shares: &Shares, to: Direction) -> DVec3 {
-    let more = lut.at(at.0, at.1).scattered(&lit.medium.haze(), to);
-    let peak = (lit.beam(at.0, at.1) - lit.sunlight(at.0, at.1)).max(DVec3::ZERO);
-    shares.rayleigh * (peak * rayleigh_phase(to.cosine) + more.0)
-        + shares.mie * (peak * lit.medium.mie_phase(to.cosine) + more.1)
 }

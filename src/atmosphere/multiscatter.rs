@@ -16,11 +16,11 @@ use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// Texels along the sun's elevation and along the altitude, as in the shaders.
-pub(super) const COLUMNS: usize = 32;
-pub(super) const ROWS: usize = 16;
-/// Columns are densest at the terminator; at these cosines of the sun's zenith angle, by day and in the planet's
-/// shadow, they are a quarter as dense.
-const DAYLIGHT: f64 = 0.3;
+pub(super) const COLUMNS: usize = 28;
+pub(super) const ROWS: usize = 10;
+/// Columns are densest at the terminator; where [`bent_sun`] has these values, by day and in the planet's shadow, they
+/// are a quarter as dense.
+const DAYLIGHT: f64 = 0.1;
 const TWILIGHT: f64 = 0.15;
 /// Number of corrections, as in the shaders.
 const CORRECTIONS: usize = 4;
@@ -346,18 +346,25 @@ pub(super) fn place(altitude: f64, sun_mu: f64) -> (f64, f64) {
     (x, altitude.clamp(0.0, 1.0).sqrt() * (ROWS - 1) as f64)
 }
 
+/// A cosine of the sun's zenith angle, bent by day: the light around a high sun moves with it, so that columns there
+/// must lie as close in the angle as others.
+fn bent_sun(mu: f64) -> f64 {
+    if mu < 0.0 { mu } else { mu / (1.0 + (1.0 - mu).max(0.0).sqrt()) }
+}
+
 /// Where a cosine of the sun's zenith angle lies between the first column of the LUT (0) and the last one (1). Columns
 /// are densest around the terminator.
 fn unit_of_sun(mu: f64) -> f64 {
-    let bend = if mu >= 0.0 { DAYLIGHT } else { TWILIGHT };
-    0.5 + 0.5 * (1.0 + bend) * mu / (mu.abs() + bend)
+    let (bent, bend) = (bent_sun(mu), if mu >= 0.0 { DAYLIGHT } else { TWILIGHT });
+    0.5 + 0.5 * (1.0 + bend) * bent / (bent.abs() + bend)
 }
 
 /// The inverse of [`unit_of_sun`].
 fn sun_mu_at(x: f64) -> f64 {
     let bend = if x >= 0.5 { DAYLIGHT } else { TWILIGHT };
     let y = (2.0 * x - 1.0) / (1.0 + bend);
-    (bend * y / (1.0 - y.abs())).clamp(-1.0, 1.0)
+    let bent = (bend * y / (1.0 - y.abs())).clamp(-1.0, 1.0);
+    if bent < 0.0 { bent } else { bent * (2.0 - bent) }
 }
 
 /// Radiance of the ground in the sun, without light from the sky.

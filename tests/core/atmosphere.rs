@@ -137,31 +137,74 @@ fn hazy_airs_are_nearly_as_bright_as_by_path_tracing() {
 /// Dust scatters forward, and its light comes both from around the sun and from along the horizon: moments of the light
 /// alone leave 40% of Cinnabar's figures more than 5% off, away from the sun by up to 20%.
 #[test]
-fn the_air_of_shipped_planets_is_nearly_as_bright_as_by_path_tracing() {
+fn the_air_of_shipped_planets_is_as_bright_as_by_path_tracing() {
     let ground = [(0.0, 0.0), (45.0, 0.0), (45.0, 90.0), (45.0, 180.0), (80.0, 0.0), (80.0, 90.0), (80.0, 180.0)];
     let high = [(45.0, 90.0), (85.0, 0.0), (85.0, 180.0), (100.0, 180.0), (150.0, 90.0)];
-    // The share of figures that may be more than 5% off, and the worst of all.
-    let bars = [
-        ("cinnabar.ron", 0.1, 0.12),
-        ("garland.ron", 0.01, 0.06),
-        ("maren.ron", 0.0, 0.05),
-        ("hoarfrost.ron", 0.0, 0.05),
-    ];
-    for (file, share, worst) in bars {
+    for file in ["cinnabar.ron", "garland.ron", "maren.ron", "hoarfrost.ron", "aurel.ron"] {
         let planet = shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap();
         let air = Air::try_new(&planet).unwrap();
-        let mut off = Vec::new();
         for sun in [30.0, 60.0, 80.0, 88.0] {
             let from = |altitude_m: f64| move |&(view, azimuth): &(f64, f64)| ray(altitude_m, view, sun, azimuth);
             for ray in ground.iter().map(from(2.0)).chain(high.iter().map(from(10e3))) {
                 let (found, expected) = (air.radiance(&ray), reference::radiance(&air, &ray, 60_000));
-                off.extend((0..3).map(|i| ((found[i] / expected[i] - 1.0).abs(), ray)));
+                for i in 0..3 {
+                    let off = (found[i] / expected[i] - 1.0).abs();
+                    assert!(off < 0.05, "{file} {ray:?}: {found:?} instead of {expected:?}");
+                }
             }
         }
-        off.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let over = off.iter().filter(|(off, _)| *off > 0.05).count() as f64 / off.len() as f64;
-        let (most, ray) = off[off.len() - 1];
-        assert!(over <= share && most < worst, "{file}: {over} are over 5%, worst {most} at {ray:?}");
+    }
+}
+
+/// In the twilight of shipped planets, dusty ones too, light comes from a band along the horizon. The expected figures
+/// are of 10 million paths each: their noise is up to 2.6%.
+#[test]
+fn the_twilight_of_shipped_planets_is_as_bright_as_by_path_tracing() {
+    let rays = [
+        ray(2.0, 88.0, 92.0, 180.0),
+        ray(2.0, 45.0, 94.0, 180.0),
+        ray(2.0, 80.0, 94.0, 180.0),
+        ray(2.0, 88.0, 94.0, 0.0),
+        ray(10e3, 85.0, 94.0, 180.0),
+        ray(10e3, 100.0, 94.0, 0.0),
+        ray(10e3, 150.0, 94.0, 90.0),
+    ];
+    let cinnabar = [
+        [8.800e-4, 6.974e-4, 5.069e-4],
+        [2.209e-4, 2.153e-4, 2.083e-4],
+        [3.355e-4, 2.995e-4, 2.633e-4],
+        [1.083e-1, 1.089e-1, 9.542e-2],
+        [3.099e-4, 3.219e-4, 3.464e-4],
+        [8.763e-3, 7.533e-3, 5.525e-3],
+        [7.662e-5, 5.178e-5, 3.239e-5],
+    ];
+    let garland = [
+        [3.520e-4, 3.309e-4, 2.413e-4],
+        [1.753e-5, 2.229e-5, 2.529e-5],
+        [2.960e-5, 2.987e-5, 2.435e-5],
+        [1.325e-2, 7.942e-3, 2.458e-3],
+        [3.676e-5, 3.501e-5, 2.788e-5],
+        [5.602e-5, 3.165e-5, 1.212e-5],
+        [1.362e-6, 1.091e-6, 8.023e-7],
+    ];
+    let aurel = [
+        [4.880e-4, 4.492e-4, 8.703e-4],
+        [1.572e-4, 9.548e-5, 2.108e-4],
+        [1.319e-4, 7.251e-5, 1.742e-4],
+        [5.091e-3, 2.030e-3, 8.038e-4],
+        [3.958e-5, 3.656e-5, 1.458e-4],
+        [8.573e-5, 8.009e-5, 2.235e-4],
+        [8.014e-6, 9.828e-6, 4.013e-5],
+    ];
+    for (file, figures) in [("cinnabar.ron", cinnabar), ("garland.ron", garland), ("aurel.ron", aurel)] {
+        let planet = shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap();
+        let air = Air::try_new(&planet).unwrap();
+        for (ray, expected) in rays.iter().zip(figures) {
+            let found = air.radiance(ray);
+            for i in 0..3 {
+                assert!((found[i] / expected[i] - 1.0).abs() < 0.06, "{file} {ray:?}: {found:?} not {expected:?}");
+            }
+        }
     }
 }
 

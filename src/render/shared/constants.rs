@@ -69,13 +69,13 @@ pub(crate) const MIXTURE_ENTRIES: u32 = 10;
 pub(crate) const SHOWN_BYTES: u64 = 4 * 4;
 /// Size of each LUT of the air, texels.
 pub(crate) const OPTICAL_DEPTH_SIZE: [u32; 2] = [256, 64];
-pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 16];
+pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [28, 10];
 /// The LUTs by direction have tiles of the multiple-scattering LUT's size: across, one for each elevation; down, one
 /// for each group of azimuths, which are the layers.
 pub(crate) const TURNS_AT_ONCE: u32 = 3;
 /// Elevations and azimuths of the light that a point sees, and of the light that air scatters again.
-pub(crate) const SEEN_NODES: [u32; 2] = [7, 2 * TURNS_AT_ONCE];
-pub(crate) const GLOW_NODES: [u32; 2] = [9, 2 * TURNS_AT_ONCE];
+pub(crate) const SEEN_NODES: [u32; 2] = [9, 3 * TURNS_AT_ONCE];
+pub(crate) const GLOW_NODES: [u32; 2] = [11, 2 * TURNS_AT_ONCE];
 pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
 pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
 /// First column of each of these two in the texture of both, and its size.

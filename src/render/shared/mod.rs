@@ -88,7 +88,6 @@ pub(crate) fn text() -> String {
         ("OPTICAL_DEPTH_SIZE", &size(OPTICAL_DEPTH_SIZE)),
         ("MULTISCATTER_SIZE", &size(MULTISCATTER_SIZE)),
         ("TURNS_AT_ONCE", &TURNS_AT_ONCE),
-        ("SEEN_RINGS", &SEEN_NODES[0]),
         ("SEEN_TURNS", &SEEN_NODES[1]),
         ("GLOW_NODES", &size(GLOW_NODES)),
         ("GLOW_HALVES", &(GLOW_NODES[1] / TURNS_AT_ONCE)),
