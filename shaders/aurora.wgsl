@@ -24,61 +24,96 @@ const GREEN: vec3f = vec3f(0.22, 1.0, 0.38);
 const RED: vec3f = vec3f(1.0, 0.1, 0.22);
 const PURPLE: vec3f = vec3f(0.75, 0.25, 1.0);
 
-// Noise on the unit sphere, -1 to 1.
-fn waver(n: vec3f, count: f32, time: f32) -> vec2f {
+// Noise on the unit sphere, -1 to 1. `blur`: length over which it is a mean.
+fn waver(n: vec3f, count: f32, time: f32, blur: f32) -> vec2f {
     let at = n * count + vec3f(0.31, 0.17, 0.73) * (count + time);
-    return (textureSampleLevel(noise_tile, repeated, at, 0.0).rg - 0.5) * 2.0;
+    let lod = max(log2(blur * count * NOISE_TILE_SIDE), 0.0);
+    return (textureSampleLevel(noise_tile, repeated, at, lod).rg - 0.5) * 2.0;
 }
 
-// Light of a point for each km of a ray. `n`: unit vector from the centre; `across_km`: what a step of the march blurs.
-fn glow_at(n: vec3f, height_km: f32, across_km: f32) -> vec3f {
+// Integral of exp(-x^2) from 0, as a hyperbolic tangent (Hendrycks, Gimpel, Gaussian error linear units, 2016).
+fn bell_to(x: vec3f) -> vec3f {
+    let near = clamp(x, vec3f(-4.0), vec3f(4.0));
+    return 0.8862269 * tanh(1.1283792 * near + 0.1009 * near * near * near);
+}
+
+// The curtains at a point.
+struct Curtains {
+    // Distance from the middle of each of three, over its half width, and bell_to of it
+    off: vec3f,
+    bell: vec3f,
+    // Each is bright in parts of the oval alone.
+    share: vec3f,
+    // Rays: fine folds seen through one another
+    rays: f32,
+    // The glow around them
+    diffuse: f32,
+}
+
+// `n`: unit vector from the centre; `blur`: length on the unit sphere over which details are a mean.
+fn curtains_at(n: vec3f, blur: f32) -> Curtains {
     let sine = dot(n, MAGNETIC_POLE);
     let flat_n = n - MAGNETIC_POLE * sine;
     let flat_sun = body.suns[0].dir - MAGNETIC_POLE * dot(body.suns[0].dir, MAGNETIC_POLE);
     let midnight = -dot(flat_n, flat_sun) * inverseSqrt(max(dot(flat_n, flat_n) * dot(flat_sun, flat_sun), 1e-6));
     let off_km = (asin(clamp(abs(sine), 0.0, 1.0)) - body.aurora_lat_rad + MIDNIGHT * midnight) * body.radius_km;
-    if abs(off_km) > 4.0 * GLOW_KM { return vec3f(0.0); }
+    if abs(off_km) > 4.0 * GLOW_KM {
+        let far = vec3f(off_km / SHEET_KM);
+        return Curtains(far, bell_to(far), vec3f(0.0), 0.0, 0.0);
+    }
     // Curtains wind along the oval and fold.
     let time = frame.time_secs;
-    let wide = waver(n, 0.9, 4e-5 * time);
-    let folds = waver(n, 4.0, 2e-4 * time);
-    let fine = waver(n, 19.0, 1e-3 * time);
-    let width_km = max(SHEET_KM, across_km);
-    var sheets = 0.0;
-    for (var k = 0; k < 3; k++) {
-        let side = f32(k - 1);
-        let wind_km = side * BETWEEN_KM * (1.0 + 0.6 * wide.y) + 190.0 * wide.x
-            + (60.0 + 25.0 * side) * folds.x + 14.0 * fine.x;
-        let x = (off_km - wind_km) / width_km;
-        // Each is bright in parts of the oval alone.
-        let share = saturate1(0.8 + 1.5 * folds.y * (1.0 - 0.4 * side) + 0.9 * side * wide.y - 0.25 * abs(side));
-        sheets += exp(-x * x) * share;
-    }
-    sheets *= SHEET_KM / width_km;
-    // Rays: fine folds seen through one another.
-    let rays = saturate1(0.6 + 0.8 * waver(n, 37.0, 3e-3 * time).x);
+    let wide = waver(n, 0.9, 4e-5 * time, blur);
+    let folds = waver(n, 4.0, 2e-4 * time, blur);
+    let fine = waver(n, 19.0, 1e-3 * time, blur);
+    let side = vec3f(-1.0, 0.0, 1.0);
+    let wind_km = side * (BETWEEN_KM * (1.0 + 0.6 * wide.y)) + 190.0 * wide.x
+        + (60.0 + 25.0 * side) * folds.x + 14.0 * fine.x;
+    let share = 0.8 + 1.5 * folds.y * (1.0 - 0.4 * side) + 0.9 * side * wide.y - 0.25 * abs(side);
+    let rays = saturate1(0.6 + 0.8 * waver(n, 37.0, 3e-3 * time, blur).x);
     let diffuse = 0.03 * exp(-(off_km / GLOW_KM) * (off_km / GLOW_KM)) * (0.7 + 0.6 * wide.y);
+    let off = (off_km - wind_km) / SHEET_KM;
+    return Curtains(off, bell_to(off), clamp(share, vec3f(0.0), vec3f(1.0)), rays, diffuse);
+}
+
+// Mean of exp(-x^2) between two points: light of curtains that a step of the march crosses. Steps are longer than
+// curtains are wide: samples would show as stripes.
+fn crossed(one: Curtains, other: Curtains) -> vec3f {
+    let width = other.off - one.off;
+    let middle = 0.5 * (one.off + other.off);
+    return select((other.bell - one.bell) / width, exp(-middle * middle), abs(width) < vec3f(0.05));
+}
+
+// Colour at a height.
+fn tint_at(height_km: f32) -> vec3f {
     // The unit of height is 60 km for the Earth.
     let z = (height_km / body.air_height_km - BOTTOM) / 0.6;
     let green = smoothstep(0.0, 0.12, z) * exp(-2.2 * z);
     let red = smoothstep(0.4, 1.3, z) * exp(-0.9 * max(z - 1.0, 0.0));
     let purple = smoothstep(-0.02, 0.05, z) * (1.0 - smoothstep(0.05, 0.3, z));
-    let tint = GREEN * green + RED * (0.13 * red) + PURPLE * (0.35 * purple);
-    return tint * (sheets * rays + diffuse);
+    return GREEN * green + RED * (0.13 * red) + PURPLE * (0.35 * purple);
 }
 
 fn gathered(dir: vec3f, from_km: f32, to_km: f32, jitter: f32) -> vec3f {
     var sum = vec3f(0.0);
     if to_km <= from_km { return sum; }
     let step_km = (to_km - from_km) / f32(STEPS);
-    for (var i = 0; i < STEPS; i++) {
-        let p = body.eye_km + dir * (from_km + (f32(i) + jitter) * step_km);
-        let r = length(p);
-        // How far a step goes across the curtains, which stand upright along circles around the pole.
-        let n = p / r;
-        let north = MAGNETIC_POLE - n * dot(n, MAGNETIC_POLE);
-        let across = abs(dot(dir, north)) * inverseSqrt(max(dot(north, north), 1e-4));
-        sum += glow_at(n, r - body.radius_km, step_km * max(across, 0.5)) * step_km;
+    var before: Curtains;
+    // The first and the last step are parts of one.
+    for (var i = 0; i <= STEPS + 1; i++) {
+        let at_km = clamp(from_km + (f32(i) - jitter) * step_km, from_km, to_km);
+        let p = body.eye_km + dir * at_km;
+        let n = normalize(p);
+        let here = curtains_at(n, step_km / body.radius_km * length(dir - n * dot(dir, n)));
+        if i > 0 {
+            let last_km = clamp(from_km + (f32(i - 1) - jitter) * step_km, from_km, to_km);
+            let middle = body.eye_km + dir * (0.5 * (at_km + last_km));
+            let share = 0.5 * (before.share + here.share);
+            let sheets = dot(share, crossed(before, here)) * 0.5 * (before.rays + here.rays);
+            let diffuse = 0.5 * (before.diffuse + here.diffuse);
+            sum += tint_at(length(middle) - body.radius_km) * ((sheets + diffuse) * (at_km - last_km));
+        }
+        before = here;
     }
     return sum;
 }

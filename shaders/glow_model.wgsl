@@ -17,7 +17,7 @@ struct Rings {
 
 // At night rings are denser at the horizon. The power grows over the second figure: a cosine of the sun to the zenith,
 // negated.
-const NIGHT_POWER: f32 = 1.7;
+const NIGHT_POWER: f32 = 1.85;
 const NIGHT_OVER: f32 = 0.12;
 
 fn rings_under(sun_mu: f32) -> Rings {

@@ -5,7 +5,12 @@
 // ground. `skylit`: whether the ground in the LUT is itself skylit.
 fn skylit_ground(sun_mu: f32, skylit: bool) -> vec3f {
     let light = scattered_light(0.0, sun_mu);
-    // The mean over the sky weighted by the cosine, if the sky changes with the squared cosine to the zenith.
-    let sky = light.mean * (2.0 + 3.75 * squared_up(light, sun_mu)) - sunlit_ground(sun_mu);
-    return body.ground_albedo * max(sky, vec3f(0.0)) / select(vec3f(1.0), 1.0 + body.ground_albedo, skylit);
+    let share = select(vec3f(1.0), 1.0 + body.ground_albedo, skylit);
+    let even = 2.0 * light.mean - sunlit_ground(sun_mu);
+    let squared = 2.0 * light.mean * squared_up(light, sun_mu);
+    // The mean over the sky weighted by the cosine. The first two terms are exact if the sky changes with the squared
+    // cosine to the zenith; less light falls from one that is brightest in a band along the horizon.
+    let band = min(squared, vec3f(0.0));
+    let sky = even + 1.875 * squared - band * band * share / max(even, vec3f(1e-30));
+    return body.ground_albedo * max(sky, vec3f(0.0)) / share;
 }

@@ -43,7 +43,7 @@ const LOWER: [(f64, f64); 2] = [(0.211_324_865_405_187, 0.5), (0.788_675_134_594
 const SEEN_TURNS: usize = 9;
 /// At night, places of rings are this power of their nodes, denser at the horizon. It grows to that over the second
 /// figure: a cosine of the sun's zenith angle, negated.
-const NIGHT_POWER: f64 = 1.7;
+const NIGHT_POWER: f64 = 1.85;
 const NIGHT_OVER: f64 = 0.12;
 /// Steps along each direction.
 const STEPS: u32 = 7;

@@ -384,10 +384,15 @@ fn guess(lit: &SunlitAir, point: &Point) -> Texel {
 /// ground.
 fn skylit_ground(lit: &SunlitAir, (before, number): (&MultiscatterLut, usize), sun_mu: f64) -> DVec3 {
     let (albedo, light) = (lit.medium.ground_albedo, before.at(0.0, sun_mu));
-    // The mean over the sky weighted by the cosine, if the sky changes with the squared cosine to the zenith.
-    let sky = 2.0 * light.mean - sunlit_ground(lit, sun_mu) + 3.75 * light.mean * light.squared_up(sun_mu);
     // After the first correction, the ground seen is itself skylit.
-    albedo * sky.max(DVec3::ZERO) / if number == 0 { DVec3::ONE } else { 1.0 + albedo }
+    let share = if number == 0 { DVec3::ONE } else { 1.0 + albedo };
+    let even = 2.0 * light.mean - sunlit_ground(lit, sun_mu);
+    let squared = 2.0 * light.mean * light.squared_up(sun_mu);
+    // The mean over the sky weighted by the cosine. The first two terms are exact if the sky changes with the squared
+    // cosine to the zenith; less light falls from one that is brightest in a band along the horizon.
+    let band = squared.min(DVec3::ZERO);
+    let sky = even + 1.875 * squared - band * band * share / even.max(DVec3::splat(1e-300));
+    albedo * sky.max(DVec3::ZERO) / share
 }
 
 /// Light gathered from all around, from that `before`. `own`: the texel of the point.

@@ -12,7 +12,10 @@ use tellus::terrain::Terrain;
 pub(crate) fn radiance(planet: &Arc<Planet>, place: [f64; 5], sun_lon: f64) -> Vec<[f32; 3]> {
     let [lat, lon, altitude_m, heading, pitch] = place;
     let camera = camera(planet, lat, lon, altitude_m, heading, pitch);
-    let view = View { camera, size_px: [96, 54], quality: Quality::Medium };
+    radiance_from(planet, View { camera, size_px: [96, 54], quality: Quality::Medium }, sun_lon)
+}
+
+fn radiance_from(planet: &Arc<Planet>, view: View, sun_lon: f64) -> Vec<[f32; 3]> {
     let surface = surface_of(planet, &view);
     let mut gpu = gpu();
     gpu.draw_only(&frame_of(&surface, planet, view, LatLon::from_degrees(0.0, sun_lon).direction()), 1);
@@ -46,6 +49,22 @@ fn an_aurora_stands_over_its_oval_at_night() {
     assert!((one / none - 1.0).abs() < 1e-3, "{one} {none}");
     let [none, one] = [0.0, 1.0].map(|aurora| sum(&radiance(&with_aurora(aurora), under, -70.0)));
     assert!((one / none - 1.0).abs() < 0.02, "{one} {none}");
+}
+
+/// A single frame has no stripes: steps of its march are longer than curtains are wide.
+#[test]
+fn an_aurora_has_no_stripes() {
+    let planet = Arc::new(Planet { radius_km: 5200.0, ..(*with_aurora(1.5)).clone() });
+    let camera = camera(&planet, 50.0, -70.0, 420e3, 0.0, -15.0);
+    let pixels = radiance_from(&planet, View { camera, size_px: [640, 360], quality: Quality::Medium }, 110.0);
+    let green = |x: usize, y: usize| f64::from(pixels[y * 640 + x][1]);
+    let (mut rough, mut all) = (0.0, 0.0);
+    // Below the stars. Rays are upright and lower edges level: the mixed difference has neither.
+    for (x, y) in (200..359).flat_map(|y| (0..639).map(move |x| (x, y))) {
+        rough += (green(x, y) - green(x + 1, y) - green(x, y + 1) + green(x + 1, y + 1)).abs();
+        all += green(x, y);
+    }
+    assert!(rough < 0.04 * all, "{}", rough / all);
 }
 
 /// From above, the shell in which air glows is an arc over the limb, as high as the shell.
