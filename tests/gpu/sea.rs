@@ -184,8 +184,8 @@ fn a_glowing_sea_shines_at_night() {
     assert!(light(0.0) < 10 && light(1.0) > 150);
 }
 
-/// Where the bed is so far away that it tells nothing about the depth here, waves are those of deep water: single pixels
-/// had those of shallow water.
+/// Where the bed is so far away that it tells nothing about the depth here, waves are those of deep water. Single
+/// pixels had those of shallow water.
 #[test]
 fn a_deep_sea_has_no_specks() {
     let planet = Arc::new(Planet { clouds: None, ..preset("maren.ron") });
