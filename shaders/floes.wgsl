@@ -48,6 +48,9 @@ fn lead_share(difference: f32, lead: f32, width: f32) -> f32 {
     return max(min(difference + half_pixel, lead) - max(difference - half_pixel, -lead), 0.0) / (2.0 * half_pixel);
 }
 
+// Length below which nothing bends the edges of floes, to the width of the greatest floe.
+const FINEST_BEND: f32 = 0.02;
+
 // How much warmer fresh water freezes than that of the sea, °C.
 const FRESH_WARMER_C: f32 = 1.9;
 // Plates between the cracks of lake ice, to a width of the greatest floe.
@@ -86,11 +89,14 @@ fn ice_at(water: Water, rel_m: vec3f, up: vec3f, footprint_m: f32, variation: f3
     }
     let closed = smoothstep(-0.5 * ICE_EDGE_C, 0.5 * ICE_EDGE_C, colder);
     if closed <= 0.0 { return Ice(0.0, thick); }
-    // Bent, so that edges of floes are no straight lines.
-    let bend = vec3f(variation, broad, variation - broad) * 0.25;
     // The mean of floes too small to be seen.
     let mean = mix(closed * 0.9, 1.0, closed * closed);
     if NEARNESS == FROM_ORBIT { return Ice(mean, thick); }
+    // Bent, so that edges of floes are no straight lines. Noise finer than that would break leads into dots.
+    let least_m = FINEST_BEND / body.floes_per_m;
+    var bent = vec2f(variation, broad);
+    if footprint_m < least_m { bent = vec2f(macro_variation(rel_m, least_m), edge_jitter(rel_m, least_m)); }
+    let bend = vec3f(bent, bent.x - bent.y) * 0.25;
     var share = 1.0;
     var albedo = thick;
     var width_cells = footprint_m * body.floes_per_m;
