@@ -99,6 +99,7 @@ fn gathered(dir: vec3f, from_km: f32, to_km: f32, jitter: f32) -> vec3f {
     if to_km <= from_km { return sum; }
     let step_km = (to_km - from_km) / f32(STEPS);
     var before: Curtains;
+    var before_km = from_km;
     // The first and the last step are parts of one.
     for (var i = 0; i <= STEPS + 1; i++) {
         let at_km = clamp(from_km + (f32(i) - jitter) * step_km, from_km, to_km);
@@ -106,14 +107,14 @@ fn gathered(dir: vec3f, from_km: f32, to_km: f32, jitter: f32) -> vec3f {
         let n = normalize(p);
         let here = curtains_at(n, step_km / body.radius_km * length(dir - n * dot(dir, n)));
         if i > 0 {
-            let last_km = clamp(from_km + (f32(i - 1) - jitter) * step_km, from_km, to_km);
-            let middle = body.eye_km + dir * (0.5 * (at_km + last_km));
+            let middle = body.eye_km + dir * (0.5 * (at_km + before_km));
             let share = 0.5 * (before.share + here.share);
             let sheets = dot(share, crossed(before, here)) * 0.5 * (before.rays + here.rays);
             let diffuse = 0.5 * (before.diffuse + here.diffuse);
-            sum += tint_at(length(middle) - body.radius_km) * ((sheets + diffuse) * (at_km - last_km));
+            sum += tint_at(length(middle) - body.radius_km) * ((sheets + diffuse) * (at_km - before_km));
         }
         before = here;
+        before_km = at_km;
     }
     return sum;
 }

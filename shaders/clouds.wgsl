@@ -216,7 +216,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     let high = max(sun_mu, 0.0) + 0.02;
     let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
-    // How far light of high orders follows diffusion instead, by the sine of the sun's elevation
+    // Share of light of high orders that diffuses through cloud; the rest falls off exponentially.
     let diffuses = smoothstep(0.1, 0.5, sun_mu);
 
     let is_fine = frame.pattern_quality > 0.0;
@@ -275,14 +275,13 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         let shortening = clamp(-log(first) / log(max(layer.stride.z, 2.0)), SHORTENING.x, SHORTENING.y);
         let from_sun = sun_share(body.eye_km + dir * t);
         let cloud_top = select(1.0, sky_here.top, way.layer == LOW_LAYER);
-        // Shares of sunlight and of all light that the layers above leave. Rain falls from closed cloud.
-        var straight = exp(-depth_over(way.layer, sky_here, to_sun));
-        var passed_above = passed_over(way.layer, sky_here);
-        if way.layer == RAIN_LAYER {
-            let low_depth = body.cloud_layers[LOW_LAYER].optical_depth;
-            straight = exp(-depth_over(LOW_LAYER, sky_here, to_sun) - low_depth * to_sun);
-            passed_above = RAIN_SHADE * passed_over(LOW_LAYER, sky_here) * let_through(low_depth);
-        }
+        // Rain falls from closed cloud.
+        var sky_above = sky_here;
+        if way.layer == RAIN_LAYER { sky_above.covers[LOW_LAYER] = 1.0; }
+        // Shares of sunlight and of all light that the layers above leave
+        let straight = exp(-depth_over(way.layer, sky_above, to_sun));
+        let shaded = select(1.0, RAIN_SHADE, way.layer == RAIN_LAYER);
+        let passed_above = shaded * passed_over(way.layer, sky_above);
         let diffuse = sunlight * (max(sun_mu, 0.0) * max(passed_above - straight, 0.0)) + sky * passed_above;
         let below = from_ground * passed_above * let_through_gaps(layer.optical_depth, sky_here.covers[way.layer]);
         // Seen from above, thin cloud over thick cloud is as bright as both together.

@@ -24,8 +24,8 @@ fn to_turns(position: vec4f) -> ToTurns {
     return ToTurns(place.pixel.xy, at, mu, turns, by_rayleigh);
 }
 
-// The LUT has fourth roots: light falls by half from column to column at night, and a straight line between two fourth
-// roots is off by a quarter of one between two values.
+// The LUT has fourth roots: at night light falls by half from column to column. A straight line between two fourth
+// roots has a quarter of the error of one between two values.
 fn node_of(light: vec3f) -> vec4f { return vec4f(sqrt(root_of(light)), 1.0); }
 
 fn turns_of(light: Lights) -> Turns { return Turns(node_of(light.first), node_of(light.second), node_of(light.third)); }

@@ -9,7 +9,8 @@ fn skylit_ground(sun_mu: f32, skylit: bool) -> vec3f {
     let even = 2.0 * light.mean - sunlit_ground(sun_mu);
     let squared = 2.0 * light.mean * squared_up(light, sun_mu);
     // The mean over the sky weighted by the cosine. The first two terms are exact if the sky changes with the squared
-    // cosine to the zenith; less light falls from one that is brightest in a band along the horizon.
+    // cosine to the zenith; less light falls from one that is brightest in a band along the horizon. Its weight
+    // is by path tracing.
     let band = min(squared, vec3f(0.0));
     let sky = even + 1.875 * squared - band * band * share / max(even, vec3f(1e-30));
     return body.ground_albedo * max(sky, vec3f(0.0)) / share;

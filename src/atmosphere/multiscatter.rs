@@ -389,7 +389,8 @@ fn skylit_ground(lit: &SunlitAir, (before, number): (&MultiscatterLut, usize), s
     let even = 2.0 * light.mean - sunlit_ground(lit, sun_mu);
     let squared = 2.0 * light.mean * light.squared_up(sun_mu);
     // The mean over the sky weighted by the cosine. The first two terms are exact if the sky changes with the squared
-    // cosine to the zenith; less light falls from one that is brightest in a band along the horizon.
+    // cosine to the zenith; less light falls from one that is brightest in a band along the horizon. Its weight
+    // is by path tracing.
     let band = squared.min(DVec3::ZERO);
     let sky = even + 1.875 * squared - band * band * share / even.max(DVec3::splat(1e-300));
     albedo * sky.max(DVec3::ZERO) / share

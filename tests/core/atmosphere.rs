@@ -134,6 +134,11 @@ fn hazy_airs_are_nearly_as_bright_as_by_path_tracing() {
     }
 }
 
+fn shipped_air(file: &str) -> Air {
+    let preset = shipped::ALL.iter().find(|preset| preset.file == file).unwrap();
+    Air::try_new(&preset.load().unwrap()).unwrap()
+}
+
 /// Dust scatters forward, and its light comes both from around the sun and from along the horizon: moments of the light
 /// alone leave 40% of Cinnabar's figures more than 5% off, away from the sun by up to 20%.
 #[test]
@@ -141,8 +146,7 @@ fn the_air_of_shipped_planets_is_as_bright_as_by_path_tracing() {
     let ground = [(0.0, 0.0), (45.0, 0.0), (45.0, 90.0), (45.0, 180.0), (80.0, 0.0), (80.0, 90.0), (80.0, 180.0)];
     let high = [(45.0, 90.0), (85.0, 0.0), (85.0, 180.0), (100.0, 180.0), (150.0, 90.0)];
     for file in ["cinnabar.ron", "garland.ron", "maren.ron", "hoarfrost.ron", "aurel.ron"] {
-        let planet = shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap();
-        let air = Air::try_new(&planet).unwrap();
+        let air = shipped_air(file);
         for sun in [30.0, 60.0, 80.0, 88.0] {
             let from = |altitude_m: f64| move |&(view, azimuth): &(f64, f64)| ray(altitude_m, view, sun, azimuth);
             for ray in ground.iter().map(from(2.0)).chain(high.iter().map(from(10e3))) {
@@ -197,8 +201,7 @@ fn the_twilight_of_shipped_planets_is_as_bright_as_by_path_tracing() {
         [8.014e-6, 9.828e-6, 4.013e-5],
     ];
     for (file, figures) in [("cinnabar.ron", cinnabar), ("garland.ron", garland), ("aurel.ron", aurel)] {
-        let planet = shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap();
-        let air = Air::try_new(&planet).unwrap();
+        let air = shipped_air(file);
         for (ray, expected) in rays.iter().zip(figures) {
             let found = air.radiance(ray);
             for i in 0..3 {

@@ -17,9 +17,7 @@ pub(crate) fn radiance(planet: &Arc<Planet>, place: [f64; 5], sun_lon: f64) -> V
 
 fn radiance_from(planet: &Arc<Planet>, view: View, sun_lon: f64) -> Vec<[f32; 3]> {
     let surface = surface_of(planet, &view);
-    let mut gpu = gpu();
-    gpu.draw_only(&frame_of(&surface, planet, view, LatLon::from_degrees(0.0, sun_lon).direction()), 1);
-    gpu.renderer.radiance().unwrap().1
+    gpu().radiance(&frame_of(&surface, planet, view, LatLon::from_degrees(0.0, sun_lon).direction()))
 }
 
 pub(crate) fn sum(pixels: &[[f32; 3]]) -> f64 {

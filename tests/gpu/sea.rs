@@ -190,10 +190,8 @@ fn specks(file: &str, [lat, lon, heading, pitch]: [f64; 4], sun: LatLon) -> usiz
     let camera = camera(&planet, lat, lon, 2.0, heading, pitch);
     let view = View { camera, size_px: [640, 360], quality: Quality::Medium };
     let surface = surface_of(&planet, &view);
-    let mut gpu = gpu();
-    gpu.draw_only(&frame_of(&surface, &planet, view, sun.direction()), 1);
-    let ([width, height], light) = gpu.renderer.radiance().unwrap();
-    let (width, height) = (width as usize, height as usize);
+    let light = gpu().radiance(&frame_of(&surface, &planet, view, sun.direction()));
+    let [width, height] = view.size_px.map(|px| px as usize);
     let green = |x: usize, y: usize| f64::from(light[y * width + x][1]);
     let is_speck = |x: usize, y: usize| {
         let mut around = (0..9).filter(|k| *k != 4).map(|k| green(x + k % 3 - 1, y + k / 3 - 1));
