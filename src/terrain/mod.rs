@@ -201,7 +201,7 @@ impl Terrain {
     /// The same terrain with these world maps.
     fn over(mut self, world: World) -> Self {
         let carved = world.carved.key().zip(world.carved.map());
-        self.stack.set_structure(Landform::structure(carved.map(|(key, carved)| (key, &**carved))));
+        self.stack.set_structure(carved.map(|(key, carved)| (key, &**carved)));
         let plates = world.plates.key().zip(world.plates.map()).map(|(key, plates)| (key, &**plates));
         let weather = world.weather.key().zip(world.weather.map());
         self.stack.set_maps(&Maps { plates, weather });

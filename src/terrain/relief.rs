@@ -12,7 +12,7 @@
 use super::climate::{ClimateInputs, CompiledClimate, MapClimate, Rules};
 use super::edits::Painted;
 use super::field::Field;
-use super::height::Heights;
+use super::height::{Heights, LayerFields};
 use super::landform::Landform;
 use super::noise;
 use super::points::Points;
@@ -30,7 +30,7 @@ const SEED: u64 = 0x5EED_0000_0000_0003;
 const MOST_NOISE: f64 = noise::BOUND * (1.0 + 1e-5);
 
 /// Where the noise for biome relief comes from: kept, or evaluated on demand.
-pub(crate) trait Inputs {
+pub(crate) trait Inputs: LayerFields {
     /// The inputs of the climate at the points.
     fn climate(&mut self) -> ClimateInputs<'_>;
 
@@ -118,7 +118,8 @@ impl Relief {
     }
 
     /// Adds biome relief to heights that the layers made, and to their gradients. `is_painted`: whether the climate
-    /// may be painted at one of the points.
+    /// may be painted at one of the points. `riverside`: the place of the field from which the relief stands aside for
+    /// rivers.
     pub(crate) fn add(
         &self,
         heights: &mut Heights,
@@ -127,6 +128,7 @@ impl Relief {
         inputs: &mut impl Inputs,
         shares: &mut Shares,
         is_painted: bool,
+        riverside: Option<usize>,
     ) {
         let can_reach = |(dir, height_m): (&DVec3, &f64)| self.can_reach(dir.z, *height_m);
         if !is_painted && !points.dirs.iter().zip(&heights.height_m).any(can_reach) {
@@ -143,7 +145,11 @@ impl Relief {
                 inputs.prepare_relief(noise);
             }
         }
+        if let Some(riverside) = riverside {
+            inputs.prepare(riverside, None);
+        }
         let inputs = &*inputs;
+        let beside = riverside.and_then(|riverside| inputs.field(riverside));
         for (i, shares) in shares.0.iter().enumerate().filter(|(_, shares)| shares.iter().any(|s| s.height_m != 0.0)) {
             let (mut relief_m, mut per_metre) = (0.0, 0.0);
             for share in shares.iter().filter(|share| share.height_m != 0.0) {
@@ -151,17 +157,21 @@ impl Relief {
                 relief_m += share.height_m * value;
                 per_metre += share.height_by_height * value;
             }
-            let raised_m = heights.height_m[i] + relief_m;
+            let t = beside.map_or(1.0, |beside| beside.value[i]);
+            let (whole, by_beside) = (t * t * (3.0 - 2.0 * t), (6.0 * t * (1.0 - t) * relief_m) as f32);
+            let raised_m = heights.height_m[i] + relief_m * whole;
             heights.height_m[i] = raised_m.clamp(self.limits_m.0, self.limits_m.1);
-            let by_ground = (1.0 + per_metre) as f32;
+            let by_ground = (1.0 + per_metre * whole) as f32;
             for (ground, &spacing_rad) in heights.gradients.iter_mut().zip(spacings_rad) {
                 let own = shares.map(|share| {
                     let field = inputs.relief(share.noise).filter(|_| share.height_m != 0.0);
-                    (share.height_m as f32, field.and_then(|field| field.gradient(spacing_rad)))
+                    ((share.height_m * whole) as f32, field.and_then(|field| field.gradient(spacing_rad)))
                 });
+                let aside = beside.and_then(|beside| beside.gradient(spacing_rad));
                 for (axis, component) in ground.iter_mut().enumerate() {
                     let slope = own.iter().filter_map(|(height_m, noise)| Some(height_m * noise.as_ref()?[axis][i]));
                     component[i] = component[i] * by_ground + slope.sum::<f32>();
+                    component[i] += aside.map_or(0.0, |aside| by_beside * aside[axis][i]);
                 }
             }
         }

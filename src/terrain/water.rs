@@ -1,7 +1,7 @@
 //! Water, wind and rain at points: the sea, and the lakes, rivers and weather of a planet's structure.
 //!
-//! Layers that lie over the structure may raise the ground above its water, or lower it below. The water keeps its
-//! level and counts where the ground is below it.
+//! Layers over the structure end at its rivers. Ground edits may raise the ground above a lake, which keeps its level; a
+//! river keeps its depth and follows them. Tiles draw the same water (see `wet`).
 
 use super::Terrain;
 use super::landform::coarsest_spacing_rad;
@@ -54,27 +54,36 @@ impl Terrain {
         if let Some(carved) = world.carved.map() {
             river_points(&carved.rivers, dirs, spacing_rad, |points| {
                 for ((sample, point), &dir) in samples.iter_mut().zip(points).zip(dirs) {
-                    add_rivers(carved, dir, point, sample);
+                    self.add_rivers(carved, dir, point, sample);
                 }
             });
         }
     }
-}
 
-/// Fills in what rivers and lakes say. The level of the sea is there already.
-fn add_rivers(carved: &Carved, dir: DVec3, point: &RiverPoint, sample: &mut Sample) {
-    let is_over = |level_m: &f64| sample.height_m < *level_m;
-    let lake = point.lake.checked_sub(1).and_then(|index| carved.drainage.lakes.get(index as usize));
-    sample.lake = lake.filter(|lake| is_over(&lake.level_m)).map(|_| point.lake);
-    sample.water_level_m = point.water_level_m.filter(is_over).or(sample.water_level_m);
-    sample.basin = carved.basins().of(cell_at(carved.drainage.side, dir));
-    // A dry valley carries no water.
-    sample.river = point.river.filter(|river| river.discharge_m3_s > 0.0).map(|river| River {
-        id: river.id,
-        distance_m: river.distance_m,
-        width_m: river.width_m,
-        depth_m: river.depth_m,
-        discharge_m3_s: river.discharge_m3_s,
-        flow_planet: river.flow,
-    });
+    /// Fills in what rivers and lakes say. The level of the sea is there already.
+    fn add_rivers(&self, carved: &Carved, dir: DVec3, point: &RiverPoint, sample: &mut Sample) {
+        let bent_m = |height_m: f64| self.stack.bent_m(height_m);
+        let lake_m = point.lake_level_m.map(bent_m).filter(|level_m| *level_m > sample.height_m);
+        let rise_m =
+            if point.rise_m > 0.0 { bent_m(point.height_m + point.rise_m) - bent_m(point.height_m) } else { 0.0 };
+        let river_m = Some(sample.height_m + rise_m).filter(|level_m| *level_m > sample.height_m);
+        // Water below the level of the sea is the sea's.
+        let is_inland = |level_m: &f64| self.planet().sea_level_m().is_none_or(|sea_m| *level_m > sea_m);
+        let (lake_m, river_m) = (lake_m.filter(is_inland), river_m.filter(is_inland));
+        sample.lake = Some(point.lake).filter(|&lake| lake > 0 && lake_m.is_some());
+        sample.water_level_m = match (lake_m, river_m) {
+            (Some(lake_m), Some(river_m)) => Some(lake_m.max(river_m)),
+            (lake_m, river_m) => lake_m.or(river_m).or(sample.water_level_m),
+        };
+        sample.basin = carved.basins().of(cell_at(carved.drainage.side, dir));
+        // A dry valley carries no water.
+        sample.river = point.river.filter(|river| river.discharge_m3_s > 0.0).map(|river| River {
+            id: river.id,
+            distance_m: river.distance_m,
+            width_m: river.width_m,
+            depth_m: river.depth_m,
+            discharge_m3_s: river.discharge_m3_s,
+            flow_planet: river.flow,
+        });
+    }
 }

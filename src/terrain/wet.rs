@@ -1,9 +1,9 @@
 //! Rivers and lakes as tiles draw them: the surface of the water where it stands above the ground, and its share of
 //! the ground around each point.
 //!
-//! Layers over the structure may raise or lower the ground. A lake keeps its level and shows where the ground is below
-//! it. A river keeps to its bed and follows the ground: layers move it by far more than it is deep, and a river that
-//! kept its level would be a row of pools and walls. The sea is none of this; it is drawn apart.
+//! Layers over the structure end at the banks of its rivers, so that a river keeps the bed and the level of the
+//! structure. Ground edits do not: there a river keeps its depth and follows the ground. A lake keeps its level and
+//! shows where the ground is below it. The sea is none of this; it is drawn apart.
 
 use crate::world::rivers::{Flow, RiverPoint};
 
@@ -50,15 +50,25 @@ pub(crate) struct Wet {
 impl Water {
     /// The water of a point and of its footprint.
     pub(crate) fn new(point: &RiverPoint, flow: &Flow) -> Self {
-        let rise_m = if flow.depth_here_m > 0.0 { (flow.level_m - point.height_m).max(0.0) } else { 0.0 };
+        let rise_m = point.rise_m;
         let wide = ((flow.width - WIDE[0]) / (WIDE[1] - WIDE[0])).clamp(0.0, 1.0);
         let mean_m = MEAN_DEPTH * flow.depth_m;
         Self {
             lake_m: point.lake_level_m.map_or(f32::NEG_INFINITY, |level_m| level_m as f32),
             river: flow.share as f32,
-            river_depth_m: (mean_m + (flow.depth_here_m - mean_m) * wide) as f32,
+            river_depth_m: (mean_m + (rise_m - mean_m) * wide) as f32,
             river_rise_m: rise_m as f32,
             river_wide: wide as f32,
+        }
+    }
+
+    /// The water where a curve bends all heights. `height_m`: the ground of the structure.
+    pub(crate) fn bent(&self, height_m: f64, curve: impl Fn(f64) -> f64) -> Self {
+        let rise_m = f64::from(self.river_rise_m);
+        Self {
+            lake_m: if self.lake_m.is_finite() { curve(f64::from(self.lake_m)) as f32 } else { self.lake_m },
+            river_rise_m: if rise_m > 0.0 { (curve(height_m + rise_m) - curve(height_m)) as f32 } else { 0.0 },
+            ..*self
         }
     }
 
@@ -75,7 +85,7 @@ impl Water {
             // Beyond a shore the next points know of it, too.
             let is_near = over_m > -SHORE * spread_m.max(LEAST_SPREAD_M);
             return Wet {
-                rise_m: over_m.max(0.0),
+                rise_m: over_m.max(0.0).max(if is_inland { river_rise_m } else { 0.0 }),
                 share: lake,
                 depth_m: if is_near { over_m } else { 0.0 },
                 wide: if is_near { 1.0 } else { f64::from(self.river_wide) },
@@ -83,7 +93,7 @@ impl Water {
             };
         }
         Wet {
-            rise_m: over_m.max(river_rise_m),
+            rise_m: over_m.max(river_rise_m).max(0.0),
             share: river,
             depth_m: f64::from(self.river_depth_m),
             wide: f64::from(self.river_wide),

@@ -11,6 +11,7 @@
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
 //! - `sculpt`, `images`, `stamp`, `erosion`, `paint`, `masks`, `structural`: ground edits
 //! - `system`: orbits and resonances
+//! - `rivers`: water on the whole course of rivers
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
@@ -35,6 +36,7 @@ mod physics;
 mod preset;
 mod rebuild;
 mod relief;
+mod rivers;
 mod saving;
 mod sculpt;
 mod sphere;

@@ -6,7 +6,7 @@
 
 use super::lanes::{self, Masking, Output, Shaped};
 use super::lanes::{CHUNK, Lane};
-use super::{Band, CompiledCurve, CompiledLayer, CompiledMask, LayerStack, Source, curve, steps};
+use super::{Band, CompiledCurve, CompiledLayer, CompiledMask, LayerStack, MOST_MASKS, Source, curve, steps};
 use crate::planet;
 use crate::simd::Simd;
 use crate::terrain::field::{Components, Field};
@@ -156,6 +156,11 @@ impl Batch<'_> {
             && let Some(field) = fields.field(0)
         {
             heights.water.extend_from_slice(&field.water);
+            if self.stack.height_curve.is_some() {
+                for (water, &height_m) in heights.water.iter_mut().zip(&field.value) {
+                    *water = water.bent(height_m, |height_m| self.stack.bent_m(height_m));
+                }
+            }
         }
     }
 }
@@ -190,7 +195,7 @@ impl Default for Scratch {
                 by_noise: [0.0; CHUNK],
                 by_steps: [0.0; CHUNK],
             },
-            masking: Masking { mask: [0.0; CHUNK], step: [0.0; CHUNK], by_source: [[0.0; CHUNK]; planet::MAX_MASKS] },
+            masking: Masking { mask: [0.0; CHUNK], step: [0.0; CHUNK], by_source: [[0.0; CHUNK]; MOST_MASKS] },
             source: [0.0; CHUNK],
             bent: [0.0; CHUNK],
             seen: [0.0; CHUNK],

@@ -3,8 +3,7 @@
 //! Heights are f64. Partial derivatives, which mix the gradients of all bands afterwards, are f32; loops without
 //! `SLOPES` leave them out, for queries of heights alone.
 
-use super::{Blend, Edge};
-use crate::planet::MAX_MASKS;
+use super::{Blend, Edge, MOST_MASKS};
 
 use crate::simd::{Simd, for_each_simd};
 
@@ -50,7 +49,7 @@ pub(super) struct Masking {
     /// The last mask alone.
     pub(super) step: Lane<f64>,
     /// Derivatives of the product by the source of each mask.
-    pub(super) by_source: [Lane<f32>; MAX_MASKS],
+    pub(super) by_source: [Lane<f32>; MOST_MASKS],
 }
 
 #[inline(always)]
@@ -114,7 +113,7 @@ fn mask_body<const SLOPES: bool>(n: usize, edge: &Edge, number: usize, source: &
     let span = edge.to - edge.from;
     let (sign, shift) = if edge.invert { (-1.0, 1.0) } else { (1.0, 0.0) };
     let Masking { mask, step, by_source } = masking;
-    let (before, own) = by_source.split_at_mut(number.min(MAX_MASKS - 1));
+    let (before, own) = by_source.split_at_mut(number.min(MOST_MASKS - 1));
     for (i, x) in source.iter().enumerate().take(n.min(CHUNK)) {
         let t = ((x - edge.from) / span).clamp(0.0, 1.0);
         step[i] = t * t * (3.0 - 2.0 * t) * sign + shift;

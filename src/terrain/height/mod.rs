@@ -22,6 +22,7 @@ use super::edits::{Edits, MaskId};
 use super::field::Spacings;
 use super::landform::{Landform, Maps, Reads};
 use crate::planet::{self, Key, Layer, MAX_MASKS, Mask, Planet, Shape};
+use crate::world::carved::Carved;
 use curve::CompiledCurve;
 use std::collections::BTreeSet;
 use std::fmt;
@@ -31,7 +32,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LayerStack {
     /// With a structure, the first one is its carved ground; the layers of the preset follow, and after these the masks
-    /// that are painted by hand, as layers that are off.
+    /// that are painted by hand and, with a structure, its riversides, as layers that are off.
     pub(crate) layers: Vec<CompiledLayer>,
     has_structure: bool,
     /// The spacings over which slope masks measure.
@@ -113,6 +114,9 @@ struct Edge {
     invert: bool,
 }
 
+/// Most masks of a layer: those of the preset, and the riversides.
+const MOST_MASKS: usize = MAX_MASKS + 1;
+
 /// Smallest height of a step and of a soft corner.
 const LEAST_M: f64 = 1e-3;
 
@@ -127,6 +131,7 @@ impl LayerStack {
             CompiledLayer { enabled: layer.enabled && !(has_structure && layer.under), ..compiled }
         }));
         layers.extend(painted_masks(planet).map(|mask| CompiledLayer::painted(mask, edits)));
+        layers.extend(has_structure.then(CompiledLayer::riverside));
         Self::of(planet, layers, has_structure, CompiledCurve::new(&planet.height_curve))
     }
 
@@ -153,6 +158,10 @@ impl LayerStack {
                     *layer += 1;
                 }
             }
+            let riverside = Source::Layer(layers.len() - 1);
+            for layer in layers.iter_mut().skip(1).take(planet.layers.len()) {
+                layer.masks.push(CompiledMask { source: riverside, edge: Edge { from: 0.0, to: 1.0, invert: false } });
+            }
         }
         let radius_m = planet.radius_m();
         let mut stack =
@@ -164,10 +173,23 @@ impl LayerStack {
     }
 
     /// Sets the carved ground of a planet that has a structure.
-    pub(crate) fn set_structure(&mut self, structure: Landform) {
-        if let Some(layer) = self.layers.first_mut().filter(|_| self.has_structure) {
-            layer.landform = Arc::new(structure);
+    pub(crate) fn set_structure(&mut self, carved: Option<(Key, &Carved)>) {
+        if let [first, .., last] = &mut *self.layers
+            && self.has_structure
+        {
+            first.landform = Arc::new(Landform::structure(carved));
+            last.landform = Arc::new(Landform::riverside(carved));
         }
+    }
+
+    /// The place of the riversides among the layers. None without a structure.
+    pub(crate) fn riverside(&self) -> Option<usize> {
+        self.layers.len().checked_sub(1).filter(|_| self.has_structure)
+    }
+
+    /// A height of the structure as the curve over all heights leaves it, metres.
+    pub(crate) fn bent_m(&self, height_m: f64) -> f64 {
+        self.height_curve.as_ref().map_or(height_m, |curve| curve.at(height_m).0)
     }
 
     /// Hands world maps to the layers that read them.
@@ -225,6 +247,11 @@ impl LayerStack {
 
     /// Finds which fields are needed, and the spacings of their gradients.
     fn find_needed(&mut self) {
+        if let Some(riverside) = self.riverside() {
+            // Biome relief stands aside for rivers, too.
+            self.layers[riverside].needed = true;
+            self.layers[riverside].masks_others = true;
+        }
         for index in 0..self.layers.len() {
             let layer = &self.layers[index];
             if !layer.enabled {
@@ -298,6 +325,11 @@ impl CompiledLayer {
             blend: Blend { kind: planet::Blend::Add, bias: 0.0, amplitude_m: 1.0, softness_m: LEAST_M },
             masks: Vec::new(),
         }
+    }
+
+    /// The riversides of the structure, before its world map is solved.
+    fn riverside() -> Self {
+        Self { landform: Arc::new(Landform::riverside(None)), enabled: false, ..Self::structure() }
     }
 
     /// A mask that is painted by hand.

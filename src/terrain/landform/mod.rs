@@ -14,6 +14,7 @@
 //! - `cells`: plates, cracks and domes around scattered centres
 //! - `heightmap`: heights from a picture
 //! - `structure`: the ground that rivers carve, from world maps; it is no kind of layer
+//! - `riverside`: how far layers stand from those rivers; it is no kind of layer
 //! - `painted`: a mask that is painted by hand; it is no kind of layer
 //! - `folding`: a landform steered by belts of folded rock
 //! - `chunk`, `scratch`: the points, sums and memory that all kinds share
@@ -48,6 +49,7 @@ mod places;
 #[cfg(test)]
 mod precision;
 mod ridged;
+mod riverside;
 mod scratch;
 mod structure;
 mod terraces;
@@ -84,6 +86,7 @@ macro_rules! landforms {
         pub(crate) enum Landform {
             $($kind($file::$kind),)+
             Structure(structure::Structure),
+            Riverside(riverside::Riverside),
             Painted(painted::Painted),
             Folding(Box<folding::Folding>),
         }
@@ -98,6 +101,7 @@ macro_rules! landforms {
                 match self {
                     $(Landform::$kind(kind) => kind,)+
                     Landform::Structure(structure) => structure,
+                    Landform::Riverside(riverside) => riverside,
                     Landform::Painted(painted) => painted,
                     Landform::Folding(folding) => &**folding,
                 }
@@ -157,6 +161,11 @@ impl Landform {
     /// The carved ground of a planet; none until its world map is solved.
     pub(crate) fn structure(carved: Option<(Key, &Carved)>) -> Self {
         Landform::Structure(structure::Structure::new(carved))
+    }
+
+    /// How far layers stand from the rivers of that ground; everywhere whole until its world map is solved.
+    pub(crate) fn riverside(carved: Option<(Key, &Carved)>) -> Self {
+        Landform::Riverside(riverside::Riverside::new(carved))
     }
 
     /// A mask that is painted by hand.

@@ -3,11 +3,11 @@
 //! Coarse tiles show fewer levels of rivers than fine ones: a valley narrower than the distance between two points
 //! cannot be seen, and finding it would take as long as all others together.
 
-use super::{Chunk, Evaluate, Scratch};
+use super::{Chunk, Evaluate, MAX_BANDS, Scratch};
 use crate::planet::Key;
 use crate::terrain::wet::Water;
 use crate::world::carved::Carved;
-use crate::world::rivers::{Cache, Flow, RiverPoint, Rivers};
+use crate::world::rivers::{Cache, Flow, LEVELS, LayerShare, RiverPoint, Rivers};
 use glam::DVec3;
 use std::cell::RefCell;
 use std::f64::consts::PI;
@@ -49,6 +49,64 @@ struct Memory {
     cache: Cache,
     points: Vec<RiverPoint>,
     flows: Vec<Flow>,
+    chunks: [LayerShares; CHUNKS],
+    next: usize,
+}
+
+/// Chunks whose shares of layers are kept: the layers of a tile are evaluated one after the other.
+const CHUNKS: usize = 8;
+
+/// The shares of layers at the points of a chunk, and what they follow from.
+#[derive(Default)]
+struct LayerShares {
+    rivers: u64,
+    levels: usize,
+    dirs: Vec<DVec3>,
+    shares: Vec<[LayerShare; LEVELS + 1]>,
+}
+
+impl Memory {
+    /// Evaluates rivers at the points of a chunk. The answers are in `points`.
+    fn evaluate(&mut self, rivers: &Rivers, chunk: &Chunk<'_>, levels: usize) {
+        rivers.evaluate(chunk.dirs, levels, &mut self.cache, &mut self.points);
+        let kept = &mut self.chunks[self.next];
+        self.next = (self.next + 1) % CHUNKS;
+        (kept.rivers, kept.levels) = (rivers.number(), levels);
+        kept.dirs.clear();
+        kept.dirs.extend_from_slice(chunk.dirs);
+        kept.shares.clear();
+        kept.shares.extend(self.points.iter().map(|point| point.layers));
+    }
+}
+
+/// The shares of layers at the points of a chunk: for each point that beside the rivers of no level, of the first, and
+/// so on. `answer` has them with the number of levels of values and of the gradients of each band.
+pub(super) fn layer_shares(
+    rivers: &Rivers,
+    chunk: &Chunk<'_>,
+    answer: impl FnOnce(&[[LayerShare; LEVELS + 1]], usize, &[usize]),
+) {
+    let (levels, seen) = levels_of(rivers, chunk);
+    MEMORY.with_borrow_mut(|memory| {
+        let is_same =
+            |kept: &LayerShares| kept.rivers == rivers.number() && kept.levels == levels && kept.dirs == chunk.dirs;
+        let kept = memory.chunks.iter().position(is_same).unwrap_or_else(|| {
+            let next = memory.next;
+            memory.evaluate(rivers, chunk, levels);
+            next
+        });
+        answer(&memory.chunks[kept].shares, levels, &seen[..chunk.spacings_rad.len()]);
+    });
+}
+
+/// The levels of rivers in values, and in the gradients of each band.
+fn levels_of(rivers: &Rivers, chunk: &Chunk<'_>) -> (usize, [usize; MAX_BANDS]) {
+    let levels = rivers.levels_for(chunk.point_spacing_rad, VALUE_POINTS);
+    let mut seen = [0; MAX_BANDS];
+    for (seen, &spacing_rad) in seen.iter_mut().zip(chunk.spacings_rad) {
+        *seen = rivers.levels_for(spacing_rad, GRADIENT_POINTS).min(levels);
+    }
+    (levels, seen)
 }
 
 /// The greatest distance between points, as an angle, at which values have the coarsest level of rivers. `side`: cells
@@ -93,14 +151,14 @@ impl Evaluate for Structure {
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Some(rivers) = self.rivers.upgrade() else { return };
-        MEMORY.with_borrow_mut(|Memory { cache, points, flows }| {
-            let levels = rivers.levels_for(chunk.point_spacing_rad, VALUE_POINTS);
-            rivers.evaluate(chunk.dirs, levels, cache, points);
+        let (levels, seen) = levels_of(&rivers, chunk);
+        MEMORY.with_borrow_mut(|memory| {
+            memory.evaluate(&rivers, chunk, levels);
+            let Memory { cache, points, flows, .. } = memory;
             for (value, point) in scratch.sums.value.iter_mut().zip(&*points) {
                 *value += point.height_m;
             }
-            for (gradient, &spacing_rad) in scratch.sums.gradients_mut().iter_mut().zip(chunk.spacings_rad) {
-                let seen = rivers.levels_for(spacing_rad, GRADIENT_POINTS).min(levels);
+            for (gradient, &seen) in scratch.sums.gradients_mut().iter_mut().zip(&seen) {
                 for (i, point) in points.iter().enumerate() {
                     for (lane, slope) in gradient.iter_mut().zip(point.gradients[seen].to_array()) {
                         lane[i] += slope as f32;

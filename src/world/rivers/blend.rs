@@ -12,7 +12,8 @@
 //! pieces, which does not depend on who asks.
 
 use super::block::Block;
-use super::reach::{Channel, Line};
+use super::channel::Cut;
+use super::reach::Line;
 use glam::DVec3;
 
 /// Keeps weights finite on a reach.
@@ -66,24 +67,20 @@ pub(super) struct Level {
     pub(super) banks: Jet,
     /// 0 on a reach, 1 far from all.
     pub(super) x: Jet,
-    /// Depth of the channel below the banks, and the height of the water.
-    pub(super) carved: Jet,
     pub(super) nearest: Option<Nearest>,
-    /// The river whose channel the point is in.
-    pub(super) river: Option<Nearest>,
 }
 
 /// A point against one piece.
-struct Foot {
-    share: f64,
+pub(super) struct Foot {
+    pub(super) share: f64,
     /// Gradient of the share.
-    share_gradient: DVec3,
+    pub(super) share_gradient: DVec3,
     /// Height of the banks above the start of the piece, their line drawn out beyond its ends, and how that varies with
     /// the share.
     bank_m: f64,
     bank_slope_m: f64,
-    offset: DVec3,
-    distance2: f64,
+    pub(super) offset: DVec3,
+    pub(super) distance2: f64,
 }
 
 /// None beyond the influence of the piece.
@@ -107,14 +104,13 @@ fn foot(line: &Line, dir: DVec3) -> Option<Foot> {
     Some(Foot { share, share_gradient, bank_m: line_m * bent, bank_slope_m, offset, distance2 })
 }
 
-/// The reaches of a block near a direction. `is_last` asks for channels too.
+/// The reaches of a block near a direction. `cut` takes in their channels: with it, the number of the level, and whether
+/// that is the last one.
 #[inline(always)]
-pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], is_last: bool) -> Level {
+pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], mut cut: Option<(&mut Cut, usize, bool)>) -> Level {
     let (mut weights, mut sum) = (Jet::default(), Jet::default());
     let (mut least_q, mut least_slope) = (1.0, DVec3::ZERO);
     let mut nearest = Nearest { piece: 0, share: 0.0, distance2: f64::MAX };
-    let mut carved = Jet::default();
-    let mut river = None;
     // Heights are summed from one of them, so that no digits are lost.
     let reference = list.first().map_or(0.0, |&first| block.lines[usize::from(first)].bank_m);
     for &number in list {
@@ -142,12 +138,11 @@ pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], is_last: bool) -> L
         weights.gradient += weight_gradient;
         sum.value += weight * bank_m;
         sum.gradient += weight_gradient * bank_m + line.along * climb;
-        if is_last && foot.distance2 < line.channel2 {
-            let (depth, is_inside) = channel(&block.stream(number).channel, &foot);
-            if is_inside && depth.value > carved.value {
-                carved = depth;
-                river = Some(Nearest { piece: number, share: foot.share, distance2: foot.distance2 });
-            }
+        if let Some((cut, level, is_last)) = &mut cut
+            && line.channel2 > 0.0
+        {
+            let is_cut = line.is_cut(*is_last);
+            cut.join(*level, is_cut, (number, line, &block.stream(number).channel), &foot);
         }
     }
     let banks = if weights.value > 0.0 {
@@ -159,23 +154,7 @@ pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], is_last: bool) -> L
     };
     let x = least_q.sqrt();
     let x = Jet { value: x, gradient: if x > 1e-12 { least_slope * (0.5 / x) } else { DVec3::ZERO } };
-    Level { banks, x, carved, nearest: Some(nearest).filter(|nearest| nearest.distance2 < f64::MAX), river }
-}
-
-/// How deep a channel is cut below its banks: `depth (1 - u)²`, with u the square of the distance by half its width.
-#[inline(never)]
-fn channel(channel: &Channel, foot: &Foot) -> (Jet, bool) {
-    let bank_rad = channel.bank_rad + channel.bank_change_rad * foot.share;
-    let u = foot.distance2 / (bank_rad * bank_rad);
-    if u >= 1.0 {
-        return (Jet::default(), false);
-    }
-    let depth_m = channel.depth_m + channel.depth_change_m * foot.share;
-    let u_gradient = foot.offset * (2.0 / (bank_rad * bank_rad))
-        - foot.share_gradient * (2.0 * u / bank_rad * channel.bank_change_rad);
-    let shape = (1.0 - u) * (1.0 - u);
-    let gradient = u_gradient * (-2.0 * (1.0 - u) * depth_m) + foot.share_gradient * (channel.depth_change_m * shape);
-    (Jet { value: depth_m * shape, gradient }, true)
+    Level { banks, x, nearest: Some(nearest).filter(|nearest| nearest.distance2 < f64::MAX) }
 }
 
 /// How valley sides rise with the distance from their reach: a V that steepens, then rounds off into the ridge.

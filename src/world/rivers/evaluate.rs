@@ -3,10 +3,11 @@
 use super::blend::{Jet, Level, Nearest, laid_over, level};
 use super::block::{Block, block_of};
 use super::cache::{Cache, LEVELS};
+use super::channel::Cut;
 use super::grid::{FacePlace, Grid};
 use super::reach::FREEBOARD;
 use super::shore::{Lakeside, sunk};
-use super::{River, RiverPoint, Rivers};
+use super::{LayerShare, River, RiverPoint, Rivers};
 use crate::simd::{Simd, for_each_simd};
 use glam::DVec3;
 use std::sync::Arc;
@@ -40,9 +41,8 @@ pub(super) struct Ground {
     /// Mean of the rise over all levels: 0 in valleys, 1 on ridges.
     ridge: f64,
     pub(super) nearest: Option<Nearest>,
-    river: Option<Nearest>,
-    carved: Jet,
-    banks_m: f64,
+    /// The cell of the solved drainage.
+    trunk: usize,
     /// The lake whose basin this is, counted from 1.
     pub(super) lake: u32,
     /// The lakes around, and the height of the banks of the nearest reach if that has nothing to do with a lake.
@@ -81,9 +81,16 @@ impl Rivers {
         }
     }
 
-    /// The ground of the first `levels` levels.
+    /// The ground of the first `levels` levels. `cut` takes in their channels, and has how far layers stand from the
+    /// rivers of no level, of the first, of the first two, and so on.
     #[inline(always)]
-    pub(super) fn ground(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> Ground {
+    pub(super) fn ground(
+        &self,
+        dir: DVec3,
+        levels: usize,
+        cache: &mut Cache,
+        mut cut: Option<(&mut Cut, &mut [Jet; LEVELS + 1])>,
+    ) -> Ground {
         let face_place = FacePlace::new(dir);
         self.find_blocks(&face_place, levels, cache);
         let tangential = |(value, gradient): (f64, DVec3)| Jet { value, gradient: gradient - dir * gradient.dot(dir) };
@@ -99,9 +106,7 @@ impl Rivers {
             gradients: [DVec3::ZERO; LEVELS + 1],
             ridge: 0.0,
             nearest: None,
-            river: None,
-            carved: Jet::default(),
-            banks_m: 0.0,
+            trunk,
             lake: self.trunks.lake_near(trunk),
             lakeside: self.lakeside(dir, trunk),
             dry_bank_m: None,
@@ -122,7 +127,11 @@ impl Rivers {
         let (mut scale, mut ridges) = (1.0, 0.0);
         for k in 0..levels {
             let Some((_, block)) = &cache.current[k] else { continue };
-            let here: Level = level(dir, block, block.near(&face_place), k + 1 == levels);
+            let channels = cut.as_mut().map(|(cut, _)| (&mut **cut, k, k + 1 == levels));
+            let here: Level = level(dir, block, block.near(&face_place), channels);
+            if let Some((cut, beside)) = &mut cut {
+                beside[k + 1] = cut.beside;
+            }
             let x = here.x;
             let laid = laid_over(ground, amplitudes[k].times(share), &here);
             ground = drowned(laid);
@@ -137,8 +146,7 @@ impl Rivers {
             if k == 0 && found.lake != 0 {
                 (found.lake, found.dry_bank_m) = self.lake_at(found.lake, &here, block);
             }
-            (found.nearest, found.river, found.carved) = (here.nearest, here.river, here.carved);
-            found.banks_m = here.banks.value;
+            found.nearest = here.nearest;
         }
         found.ridge = if ridges > 0.0 { found.ridge / ridges } else { 0.0 };
         found.next_relief_m = amplitudes.get(levels).map_or(0.0, |amplitude| amplitude.value * share.value);
@@ -185,36 +193,40 @@ impl Rivers {
 
     #[inline(always)]
     fn point(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> RiverPoint {
-        let at = self.ground(dir, levels, cache);
-        let (standing_m, lake) = self.trunks.standing(at.lake);
-        let height_m = at.mean.value - at.carved.value;
-        let standing_m = standing_m.filter(|level_m| height_m < *level_m);
+        let mut cut = Cut::default();
+        let mut beside = [cut.beside; LEVELS + 1];
+        let at = self.ground(dir, levels, cache, Some((&mut cut, &mut beside)));
+        let bed = cut.bed(at.mean);
         let mut gradients = at.gradients;
         if let Some(gradient) = gradients.get_mut(levels) {
-            *gradient -= at.carved.gradient - dir * at.carved.gradient.dot(dir);
+            *gradient = bed.gradient - dir * bed.gradient.dot(dir);
         }
+        // Layers leave lakes alone, too.
+        let off_lakes = at.lakeside.map(|lakeside| lakeside.beside());
+        let layers = beside.map(|beside| {
+            let Jet { value, gradient } = off_lakes.map_or(beside, |off| beside.times(off));
+            LayerShare { value, gradient: gradient - dir * gradient.dot(dir) }
+        });
+        let lake_level_m = at.lakeside.and_then(|lakeside| self.shore_m(&lakeside, at.dry_bank_m));
         let mut point = RiverPoint {
-            height_m,
+            height_m: bed.value,
             gradients,
-            water_level_m: standing_m,
-            lake: if standing_m.is_some() { lake } else { 0 },
-            lake_level_m: at.lakeside.and_then(|lakeside| self.shore_m(&lakeside, at.dry_bank_m)),
+            rise_m: cut.rise_m(),
+            lake: if at.lake == 0 && lake_level_m.is_some() { self.trunks.lake_near(at.trunk) } else { at.lake },
+            lake_level_m,
+            layers,
             ridge: 2.0 * at.ridge - 1.0,
             river: None,
         };
         // The channel that the point is in, or the nearest reach.
-        let block = cache.current.get(levels.wrapping_sub(1)).and_then(Option::as_ref);
-        if let (Some(near), Some((_, block))) = (at.river.or(at.nearest), block) {
+        let last = levels.wrapping_sub(1);
+        let near = cut.river.or_else(|| Some((last, at.nearest?)));
+        if let Some((level, near)) = near
+            && let Some((_, block)) = cache.current.get(level).and_then(Option::as_ref)
+        {
             let (line, stream) = (&block.lines[usize::from(near.piece)], block.stream(near.piece));
             let channel = &stream.channel;
             let depth_m = channel.depth_m + channel.depth_change_m * near.share;
-            if at.river.is_some() {
-                let level_m = at.banks_m - FREEBOARD * depth_m;
-                let is_wet = height_m < level_m && standing_m.is_none_or(|standing_m| standing_m < level_m);
-                if is_wet {
-                    point.water_level_m = Some(level_m);
-                }
-            }
             let along = line.along - dir * line.along.dot(dir);
             point.river = Some(River {
                 id: stream.river,

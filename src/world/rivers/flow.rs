@@ -5,12 +5,9 @@
 
 use super::Rivers;
 use super::cache::Cache;
-use super::grid::{FacePlace, RATIO};
+use super::grid::FacePlace;
 use super::reach::{Channel, FREEBOARD, Line};
 use glam::DVec3;
-
-/// Square of half a river's width, by that of its influence, from which the next level is too fine for its banks.
-const OUTGROWN: f64 = 0.8 / (RATIO * RATIO) as f64;
 
 /// How far beyond its banks the width of a river is known, in spacings.
 const BESIDE: f64 = 2.5;
@@ -22,10 +19,6 @@ pub(crate) struct Flow {
     pub(crate) share: f64,
     /// Depth of the water in the middle of the river.
     pub(crate) depth_m: f64,
-    /// Depth of the water at the point; 0 if that is not in the water.
-    pub(crate) depth_here_m: f64,
-    /// Height of the water's surface at the point, if that is in the water.
-    pub(crate) level_m: f64,
     /// Width of the water, in spacings: known on the dry points next to the footprint, too.
     pub(crate) width: f64,
 }
@@ -55,8 +48,7 @@ impl Rivers {
             let is_last = level + 1 == levels;
             for &number in block.near(&place) {
                 let line = &block.lines[usize::from(number)];
-                // A river wider than the influence that it has on the next level is taken from this one, too.
-                if line.channel2 == 0.0 || !(is_last || line.channel2 * line.per_influence2 > OUTGROWN) {
+                if !line.is_cut(is_last) {
                     continue;
                 }
                 flow.join(dir, line, &block.stream(number).channel, spacing_rad);
@@ -89,14 +81,6 @@ impl Flow {
             (self.share, self.width, self.depth_m) = (found, width, depth_m * (1.0 - FREEBOARD));
         } else if self.share == 0.0 && distance_rad < half_rad + far_rad {
             self.width = self.width.max(width);
-        }
-        // Pieces overlap where they meet: the deepest one decides.
-        let bank_rad = channel.bank_rad + channel.bank_change_rad * share;
-        let inside = (1.0 - distance2 / (bank_rad * bank_rad)).max(0.0);
-        let depth_here_m = depth_m * (inside * inside - FREEBOARD);
-        if depth_here_m > self.depth_here_m {
-            self.depth_here_m = depth_here_m;
-            self.level_m = line.bank_m + line.bank_change_m * share - FREEBOARD * depth_m;
         }
     }
 }

@@ -8,6 +8,7 @@
 //! - `reach`: the curve, bed and channel of a reach, cut into straight pieces; `winding`: their bends on finer levels
 //! - `block`: pieces near a square of cells, listed by bucket; `cache`: blocks that were built
 //! - `blend`: the ground of one level at a point, laid over the level before
+//! - `channel`: the beds of rivers at a point, and how far layers over the structure stand from them
 //! - `courses`: rivers from source to mouth
 //! - `evaluate`: ground, water and river at points; `bounds`: bounds of the ground near a direction
 //! - `flow`: shares of rivers in the footprints of points, to be drawn; `shore`: the drawn surface of lakes
@@ -24,6 +25,7 @@ mod blend;
 mod block;
 mod bounds;
 mod cache;
+mod channel;
 mod coarser;
 mod courses;
 mod evaluate;
@@ -62,7 +64,6 @@ pub(crate) struct Rivers {
     steepest_m: [f64; LEVELS],
     bounds: Bounds,
     blocks: Blocks,
-    /// Tells these rivers from all others of the process.
     number: u64,
 }
 
@@ -74,16 +75,27 @@ pub(crate) struct RiverPoint {
     /// Tangential gradients of the height by the direction: of the ground of no level, of the first level, of the first
     /// two, and so on. The one of all levels that were asked for has channels in it; later ones are 0.
     pub(crate) gradients: [DVec3; LEVELS + 1],
-    /// Surface of the water that stands or flows here, if any.
-    pub(crate) water_level_m: Option<f64>,
-    /// The lake whose water it is, counted from 1; else 0.
+    /// Height of the surface of the river above the ground if the point is in its water; else 0.
+    pub(crate) rise_m: f64,
+    /// The lake near the point, counted from 1; 0 for none.
     pub(crate) lake: u32,
-    /// Surface of the lake near the point as tiles draw it, if it is higher than the sea: on dry ground, too.
+    /// Height of its surface, if that is higher than the sea: on dry ground, too.
     pub(crate) lake_level_m: Option<f64>,
+    /// The part of layers over the structure that stands here, beside the rivers of no level, of the first, of the
+    /// first two, and so on; those of levels that were not asked for are 1.
+    pub(crate) layers: [LayerShare; LEVELS + 1],
     /// From -1 in valleys to 1 on ridges.
     pub(crate) ridge: f64,
     /// The nearest reach, if one is near.
     pub(crate) river: Option<River>,
+}
+
+/// How far layers over the structure stand from rivers and lakes: 0 in their water, 1 where nothing is near. A number
+/// with its tangential gradient by the direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LayerShare {
+    pub(crate) value: f64,
+    pub(crate) gradient: DVec3,
 }
 
 /// A river or a dry valley near a point.
@@ -119,6 +131,11 @@ impl Rivers {
             trunks,
             number: NUMBER.fetch_add(1, Ordering::Relaxed),
         }
+    }
+
+    /// Tells these rivers from all others of the process.
+    pub(crate) fn number(&self) -> u64 {
+        self.number
     }
 
     /// How many blocks are kept.

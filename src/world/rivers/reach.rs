@@ -1,5 +1,6 @@
 //! A reach: the curve from one node to the next, its bed and its channel, cut into straight pieces.
 
+use super::grid::RATIO;
 use glam::DVec3;
 
 /// Discharge from which a reach carries a river that is drawn, in cubic metres a second. Weaker ones are valleys.
@@ -12,6 +13,12 @@ pub(super) const FREEBOARD: f64 = (1.0 - 1.0 / (BANK * BANK)) * (1.0 - 1.0 / (BA
 /// Distance within which the ground depends on a reach, by the width of a cell. Together with the jitter of nodes it
 /// keeps the reaches that matter to a cell within two rings of cells.
 pub(super) const INFLUENCE: f64 = 0.45;
+/// Half the width of a channel is at most this share of the influence of its reach.
+const WIDEST: f64 = 0.8;
+/// Square of half a channel's width, by that of the influence, from which the next level is too fine for it.
+const OUTGROWN: f64 = 0.8 / (RATIO * RATIO) as f64;
+/// How far from the banks of a river of 100 m³/s the layers over the structure are whole, metres.
+const RIVERSIDE_M: f64 = 700.0;
 /// Length of the end tangents of a reach, by its chord: the less, the nearer the curve stays to the chord.
 const STRETCH: f64 = 0.8;
 /// A share beyond every influence.
@@ -75,7 +82,8 @@ pub(super) struct Line {
     pub(super) per_influence2: f64,
     /// The square of half the floodplain's width, by that of the influence.
     pub(super) flat2: f64,
-    /// Square of the distance from which there is no channel; 0 where there is no river.
+    /// Square of the distance from which there is no channel; 0 where there is no river, or where a coarser level cuts
+    /// its channel.
     pub(super) channel2: f64,
 }
 
@@ -89,6 +97,9 @@ pub(super) struct Channel {
     pub(super) depth_change_m: f64,
     pub(super) discharge_m3_s: f64,
     pub(super) discharge_change_m3_s: f64,
+    /// Distance from the bank to where layers over the structure are whole.
+    pub(super) riverside_rad: f64,
+    pub(super) riverside_change_rad: f64,
 }
 
 /// Width of a river at its discharge, in metres (exponent: Pelletier 2021; factor: Andreadis et al. 2013).
@@ -99,6 +110,25 @@ pub(super) fn width_m(discharge_m3_s: f64) -> f64 {
 /// Depth of a river at its discharge, in metres (Pelletier 2021).
 pub(super) fn depth_m(discharge_m3_s: f64) -> f64 {
     0.27 * libm::pow(discharge_m3_s.max(0.0), 0.4)
+}
+
+/// Distance from the bank of a river to where layers over the structure are whole, in metres. It grows with the
+/// discharge as the floors of valleys do.
+fn riverside_m(discharge_m3_s: f64) -> f64 {
+    RIVERSIDE_M * libm::pow(discharge_m3_s.max(0.0) * 0.01, 0.4)
+}
+
+impl Line {
+    /// Whether this level cuts the channel of the piece: the last one that is asked for does, and one whose next level
+    /// would be too fine for a channel so wide.
+    #[inline(always)]
+    pub(super) fn is_cut(&self, is_last: bool) -> bool {
+        self.channel2 > 0.0 && (is_last || self.is_outgrown())
+    }
+
+    fn is_outgrown(&self) -> bool {
+        self.channel2 * self.per_influence2 > OUTGROWN
+    }
 }
 
 impl Channel {
@@ -121,7 +151,8 @@ impl Reach {
         let ends = |k: usize, [a, b]: [f64; 2]| a + (b - a) * (k as f64 / count as f64);
         let channel = |k: usize| {
             let discharge = ends(k, self.discharge_m3_s);
-            [0.5 * BANK * width_m(discharge) / radius_m, depth_m(discharge), discharge]
+            let bank_rad = (0.5 * BANK * width_m(discharge) / radius_m).min(WIDEST * self.influence_rad);
+            [bank_rad, depth_m(discharge), discharge, riverside_m(discharge) / radius_m]
         };
         let curve = Curve { ends: [self.from, self.to], tangents: self.end_tangents() };
         for k in 0..count {
@@ -129,7 +160,8 @@ impl Reach {
             let flat_rad = 0.5 * (ends(k, self.flat_rad) + ends(k + 1, self.flat_rad)) / self.influence_rad;
             let (bank_m, next_m) = (ends(k, self.bank_m), ends(k + 1, self.bank_m));
             let channel = has_river.then(|| {
-                let ([bank_rad, depth_m, discharge], [next_rad, next_depth_m, next]) = (channel(k), channel(k + 1));
+                let [bank_rad, depth_m, discharge, riverside_rad] = channel(k);
+                let [next_rad, next_depth_m, next, next_riverside_rad] = channel(k + 1);
                 Channel {
                     bank_rad,
                     bank_change_rad: next_rad - bank_rad,
@@ -137,6 +169,8 @@ impl Reach {
                     depth_change_m: next_depth_m - depth_m,
                     discharge_m3_s: discharge,
                     discharge_change_m3_s: next - discharge,
+                    riverside_rad,
+                    riverside_change_rad: next_riverside_rad - riverside_rad,
                 }
             });
             let along = end.0 - start.0;
@@ -198,7 +232,7 @@ impl Piece {
         for k in 0..count {
             let ((a, first), (b, last)) = (point(k), point(k + 1));
             let (share, along) = (k as f64 * step, b - a);
-            let Channel { depth_change_m, discharge_change_m3_s, .. } = stream.channel;
+            let Channel { depth_change_m, discharge_change_m3_s, riverside_change_rad, .. } = stream.channel;
             let (bank_rad, next_rad) = (bank_rad(share), bank_rad(share + step));
             let channel = Channel {
                 bank_rad,
@@ -207,6 +241,8 @@ impl Piece {
                 depth_change_m: depth_change_m * step,
                 discharge_m3_s: stream.channel.discharge_m3_s + discharge_change_m3_s * share,
                 discharge_change_m3_s: discharge_change_m3_s * step,
+                riverside_rad: stream.channel.riverside_rad + riverside_change_rad * share,
+                riverside_change_rad: riverside_change_rad * step,
             };
             let line = Line {
                 start: a,
@@ -218,7 +254,7 @@ impl Piece {
                 last_share: (whole.last_share - share) * count as f64,
                 per_influence2: whole.per_influence2 * (finer * finer),
                 flat2: whole.flat2 * (finer * finer),
-                channel2: channel.reach2(),
+                channel2: if whole.channel2 > 0.0 && !whole.is_outgrown() { channel.reach2() } else { 0.0 },
             };
             each(Piece { line, stream: Stream { channel, tangents: [first, last], ..*stream } });
         }

@@ -1,0 +1,66 @@
+//! How far layers over the structure stand from its rivers and lakes, as a field: 0 in their water, 1 where none is near.
+//! It masks every layer over the structure, so that none buries a river. It is no kind of layer.
+
+use super::structure::layer_shares;
+use super::{Chunk, Evaluate, Scratch};
+use crate::planet::Key;
+use crate::world::carved::Carved;
+use crate::world::rivers::Rivers;
+use std::sync::{Arc, Weak};
+
+/// The riversides of a planet. Fields of earlier revisions must not keep its maps alive, so it refers to them weakly.
+#[derive(Clone)]
+pub(crate) struct Riverside {
+    key: Option<Key>,
+    rivers: Weak<Rivers>,
+}
+
+impl Riverside {
+    pub(super) fn new(carved: Option<(Key, &Carved)>) -> Self {
+        match carved {
+            Some((key, carved)) => Self { key: Some(key), rivers: Arc::downgrade(&carved.rivers) },
+            None => Self { key: None, rivers: Weak::new() },
+        }
+    }
+}
+
+impl PartialEq for Riverside {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
+impl std::fmt::Debug for Riverside {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Riverside").field(&self.key).finish()
+    }
+}
+
+impl Evaluate for Riverside {
+    fn octave_count(&self) -> usize {
+        0
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        (0.0, 1.0)
+    }
+
+    fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        let Some(rivers) = self.rivers.upgrade() else {
+            scratch.sums.value[..chunk.len()].fill(1.0);
+            return;
+        };
+        layer_shares(&rivers, chunk, |shares, levels, seen| {
+            for (value, share) in scratch.sums.value.iter_mut().zip(shares) {
+                *value += share[levels].value;
+            }
+            for (gradient, &seen) in scratch.sums.gradients_mut().iter_mut().zip(seen) {
+                for (i, share) in shares.iter().enumerate() {
+                    for (lane, slope) in gradient.iter_mut().zip(share[seen].gradient.to_array()) {
+                        lane[i] += slope as f32;
+                    }
+                }
+            }
+        });
+    }
+}
