@@ -83,7 +83,10 @@ fn beds_never_rise_and_water_stands_above_them() {
                         steps += 1;
                         rises += usize::from(point.height_m > before + 1e-3 && point.lake == 0);
                     }
-                    if point.river.is_some_and(|river| river.discharge_m3_s > 0.0 && river.distance_m < 0.49 * river.width_m) {
+                    if point
+                        .river
+                        .is_some_and(|river| river.discharge_m3_s > 0.0 && river.distance_m < 0.49 * river.width_m)
+                    {
                         assert!(point.rise_m > 0.0, "{point:?}");
                         traced += 1;
                     }
