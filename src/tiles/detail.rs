@@ -117,7 +117,7 @@ fn between(wide: &[Texel], x: usize, y: usize) -> Texel {
 mod tests {
     use super::*;
     use crate::lod::{Quality, opening};
-    use crate::planet::shipped;
+    use crate::planet::{Planet, shipped};
     use crate::tiles::build_now;
     use std::sync::Arc;
 
@@ -191,5 +191,39 @@ mod tests {
             steepest = steepest.max(theirs[0].abs().max(theirs[1].abs()));
         }
         assert!(steepest > 0.05 && worst < 1e-6 * steepest, "{worst} of {steepest}");
+    }
+
+    /// Water that a texture shows is water that a query finds, at the same height, and the reverse.
+    #[test]
+    fn drawn_water_is_queried_water() {
+        let planet = shipped::default_planet();
+        let structure = planet.structure.map(|structure| crate::planet::Structure { grids: 1, ..structure });
+        let terrain = Terrain::try_new(Arc::new(Planet { structure, ..planet })).unwrap();
+        let (mut wet, mut dry, mut apart) = (0, 0, 0);
+        for course in terrain.rivers(2000.0).courses.iter().step_by(11).take(12) {
+            let dir = course.points[course.points.len() / 2].place.direction();
+            // Texels far narrower than the river.
+            let id = NodeId::containing(dir, 11);
+            let Some(texels) = texels(&terrain, id, 1, &|| true) else { unreachable!("wanted") };
+            let along = |texel: usize| (texel as f64 - DETAIL_APRON as f64) / (DETAIL_SIDE - 1) as f64;
+            for (i, texel) in texels.iter().enumerate().step_by(61) {
+                let dir = id.direction(along(i % DETAIL_IMAGE), along(i / DETAIL_IMAGE));
+                let sample = terrain.sample(dir);
+                let is_inland = |level_m: &f64| Some(*level_m) != terrain.planet().sea_level_m();
+                match sample.water_level_m.filter(is_inland) {
+                    Some(level_m) => {
+                        apart += usize::from(texel.water.share < 0.5);
+                        assert!((texel.height_m - level_m).abs() < 0.01, "{} {sample:?}", texel.height_m);
+                        wet += 1;
+                    }
+                    None => {
+                        apart += usize::from(texel.water.share > 0.5);
+                        assert_eq!(texel.height_m, sample.height_m);
+                        dry += 1;
+                    }
+                }
+            }
+        }
+        assert!(wet > 300 && dry > 300 && apart * 50 < wet + dry, "{wet} wet, {dry} dry, {apart} apart");
     }
 }

@@ -49,7 +49,7 @@ impl Cut {
     pub(super) fn join(&mut self, level: usize, is_cut: bool, piece: (u16, &Line, &Channel), foot: &Foot) {
         let (number, line, channel) = piece;
         let bank_rad = channel.bank_rad + channel.bank_change_rad * foot.share;
-        self.stand_aside(line, channel, foot, if is_cut { bank_rad } else { 0.0 });
+        self.stand_aside(line, channel, foot, bank_rad);
         let u = foot.distance2 / (bank_rad * bank_rad);
         if !is_cut || u >= 1.0 {
             return;
@@ -77,26 +77,36 @@ impl Cut {
         }
     }
 
-    /// Layers stand from the banks of the river on, and are whole at the end of its riverside.
+    /// Layers stand from the banks of the river on, and are whole at the end of its riverside. Brooks ride on them.
     fn stand_aside(&mut self, line: &Line, channel: &Channel, foot: &Foot, bank_rad: f64) {
-        let distance = foot.distance2.sqrt();
-        let beyond = distance - bank_rad;
-        if beyond <= 0.0 {
-            self.beside = Jet::default();
+        let hold = channel.hold + channel.hold_change * foot.share;
+        if hold <= 0.0 {
             return;
         }
+        let distance = foot.distance2.sqrt();
+        let beyond = distance - bank_rad;
         let riverside_rad = channel.riverside_rad + channel.riverside_change_rad * foot.share;
         let most_rad = WITHIN / line.per_influence2.sqrt() - bank_rad;
         let (reach, reach_gradient) = if riverside_rad < most_rad {
             (riverside_rad, foot.share_gradient * channel.riverside_change_rad)
         } else {
-            (most_rad, DVec3::ZERO)
+            (most_rad, foot.share_gradient * -channel.bank_change_rad)
         };
-        let t = beyond / reach;
-        if t < self.beside.value {
-            self.beside =
-                Jet { value: t, gradient: (foot.offset * (1.0 / distance) - reach_gradient * t) * (1.0 / reach) };
+        if beyond >= reach {
+            return;
         }
+        let away = if beyond > 0.0 {
+            let t = beyond / reach;
+            let outwards = foot.offset * (1.0 / distance) - foot.share_gradient * channel.bank_change_rad;
+            Jet { value: t, gradient: (outwards - reach_gradient * t) * (1.0 / reach) }
+        } else {
+            Jet::default()
+        };
+        if 1.0 - hold * (1.0 - away.value) >= self.beside.value {
+            return;
+        }
+        let hold = Jet { value: hold, gradient: foot.share_gradient * channel.hold_change };
+        self.beside = hold.times(away.plus_number(-1.0)).plus_number(1.0);
     }
 
     /// The ground with the channels cut into it.

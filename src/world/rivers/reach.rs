@@ -18,7 +18,11 @@ const WIDEST: f64 = 0.8;
 /// Square of half a channel's width, by that of the influence, from which the next level is too fine for it.
 const OUTGROWN: f64 = 0.8 / (RATIO * RATIO) as f64;
 /// How far from the banks of a river of 100 m³/s the layers over the structure are whole, metres.
-const RIVERSIDE_M: f64 = 700.0;
+const RIVERSIDE_M: f64 = 2500.0;
+/// Discharges up to which a brook rides on the layers over the structure, and from which they leave a river its bed, on
+/// a planet of the Earth's size.
+const BROOK_TO_RIVER_M3_S: [f64; 2] = [5.0, 20.0];
+const EARTH_M: f64 = 6.371e6;
 /// Length of the end tangents of a reach, by its chord: the less, the nearer the curve stays to the chord.
 const STRETCH: f64 = 0.8;
 /// A share beyond every influence.
@@ -100,6 +104,9 @@ pub(super) struct Channel {
     /// Distance from the bank to where layers over the structure are whole.
     pub(super) riverside_rad: f64,
     pub(super) riverside_change_rad: f64,
+    /// How far layers over the structure give way to it: from 0 for a brook to 1.
+    pub(super) hold: f64,
+    pub(super) hold_change: f64,
 }
 
 /// Width of a river at its discharge, in metres (exponent: Pelletier 2021; factor: Andreadis et al. 2013).
@@ -113,9 +120,17 @@ pub(super) fn depth_m(discharge_m3_s: f64) -> f64 {
 }
 
 /// Distance from the bank of a river to where layers over the structure are whole, in metres. It grows with the
-/// discharge as the floors of valleys do.
+/// discharge a little less than the floors of valleys do.
 fn riverside_m(discharge_m3_s: f64) -> f64 {
-    RIVERSIDE_M * libm::pow(discharge_m3_s.max(0.0) * 0.01, 0.4)
+    RIVERSIDE_M * libm::pow(discharge_m3_s.max(0.0) * 0.01, 0.3)
+}
+
+/// How far layers over the structure give way to a river: from 0 for a brook to 1. Small planets have small rivers.
+fn hold(discharge_m3_s: f64, radius_m: f64) -> f64 {
+    let size = (radius_m * (1.0 / EARTH_M)).min(1.0);
+    let [brook, river] = BROOK_TO_RIVER_M3_S.map(|discharge| discharge * size * size);
+    let t = ((discharge_m3_s - brook) / (river - brook)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }
 
 impl Line {
@@ -152,7 +167,7 @@ impl Reach {
         let channel = |k: usize| {
             let discharge = ends(k, self.discharge_m3_s);
             let bank_rad = (0.5 * BANK * width_m(discharge) / radius_m).min(WIDEST * self.influence_rad);
-            [bank_rad, depth_m(discharge), discharge, riverside_m(discharge) / radius_m]
+            [bank_rad, depth_m(discharge), discharge, riverside_m(discharge) / radius_m, hold(discharge, radius_m)]
         };
         let curve = Curve { ends: [self.from, self.to], tangents: self.end_tangents() };
         for k in 0..count {
@@ -160,8 +175,8 @@ impl Reach {
             let flat_rad = 0.5 * (ends(k, self.flat_rad) + ends(k + 1, self.flat_rad)) / self.influence_rad;
             let (bank_m, next_m) = (ends(k, self.bank_m), ends(k + 1, self.bank_m));
             let channel = has_river.then(|| {
-                let [bank_rad, depth_m, discharge, riverside_rad] = channel(k);
-                let [next_rad, next_depth_m, next, next_riverside_rad] = channel(k + 1);
+                let [bank_rad, depth_m, discharge, riverside_rad, hold] = channel(k);
+                let [next_rad, next_depth_m, next, next_riverside_rad, next_hold] = channel(k + 1);
                 Channel {
                     bank_rad,
                     bank_change_rad: next_rad - bank_rad,
@@ -171,6 +186,8 @@ impl Reach {
                     discharge_change_m3_s: next - discharge,
                     riverside_rad,
                     riverside_change_rad: next_riverside_rad - riverside_rad,
+                    hold,
+                    hold_change: next_hold - hold,
                 }
             });
             let along = end.0 - start.0;
@@ -232,7 +249,8 @@ impl Piece {
         for k in 0..count {
             let ((a, first), (b, last)) = (point(k), point(k + 1));
             let (share, along) = (k as f64 * step, b - a);
-            let Channel { depth_change_m, discharge_change_m3_s, riverside_change_rad, .. } = stream.channel;
+            let Channel { depth_change_m, discharge_change_m3_s, riverside_change_rad, hold_change, .. } =
+                stream.channel;
             let (bank_rad, next_rad) = (bank_rad(share), bank_rad(share + step));
             let channel = Channel {
                 bank_rad,
@@ -243,6 +261,8 @@ impl Piece {
                 discharge_change_m3_s: discharge_change_m3_s * step,
                 riverside_rad: stream.channel.riverside_rad + riverside_change_rad * share,
                 riverside_change_rad: riverside_change_rad * step,
+                hold: stream.channel.hold + hold_change * share,
+                hold_change: hold_change * step,
             };
             let line = Line {
                 start: a,
