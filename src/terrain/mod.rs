@@ -81,7 +81,7 @@ use landform::{Landform, Maps};
 pub use nearest::{Place, Search};
 pub use network::{Basin, Course, CoursePoint, Lake, Mouth, Rivers};
 use points::unit;
-pub use query::{Sample, Scratch, Wanted};
+pub use query::{Detail, Sample, Scratch, Wanted};
 use relief::Relief;
 pub use revision::Revision;
 use revision::{Compiled, Keys, TileContent, TileKeys};

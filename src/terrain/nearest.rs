@@ -1,7 +1,7 @@
 //! The nearest place with a property: the nearest coast, lake, biome or level ground.
 
 use super::Terrain;
-use super::query::{Sample, Wanted};
+use super::query::{Detail, Sample, Wanted};
 use crate::sphere::Tangent;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -91,12 +91,19 @@ impl Terrain {
                 }
                 next += 1;
             }
-            let samples = self.samples(&dirs, wanted);
+            // Rivers and valleys narrower than the spacing are left out first: where they count, all detail is asked.
+            let samples = self.samples_detailed(&dirs, wanted, Detail::SpacingM(spacing_m));
             let found: Vec<usize> = (0..dirs.len()).filter(|i| holds(&samples[*i])).collect();
-            let Some(first) = found.first().map(|i| circle_of[*i]) else { continue };
-            let on_first = found.into_iter().filter(|i| circle_of[*i] == first);
-            let place = |i: usize| self.border(tangent.up_planet, (dirs[i], samples[i]), spacing_m, wanted, holds);
-            return Ok(on_first.map(place).min_by(|a, b| a.away_m.total_cmp(&b.away_m)));
+            for circle in found.chunk_by(|a, b| circle_of[*a] == circle_of[*b]) {
+                let dirs: Vec<DVec3> = circle.iter().map(|i| dirs[*i]).collect();
+                let samples = self.samples(&dirs, wanted);
+                let holding = dirs.into_iter().zip(samples).filter(|(_, sample)| holds(sample));
+                let place = |found| self.border(tangent.up_planet, found, spacing_m, wanted, holds);
+                let nearest = holding.map(place).min_by(|a, b| a.away_m.total_cmp(&b.away_m));
+                if nearest.is_some() {
+                    return Ok(nearest);
+                }
+            }
         }
         Ok(None)
     }

@@ -12,6 +12,7 @@ use super::lane::CHUNK;
 use super::points::unit;
 use super::water::River;
 use super::wet::Water;
+use crate::world::rivers::keep_bytes;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::cell::RefCell;
@@ -109,6 +110,26 @@ impl Wanted {
     }
 }
 
+/// How much of a structure's rivers and valleys a query finds. Layers always count with all that they have.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Detail {
+    /// All of them, as the finest mesh shows them.
+    #[default]
+    All,
+    /// What points this far apart along the reference sphere show, metres: far cheaper where points are spread over the
+    /// planet. A number that is no distance counts as 0.
+    SpacingM(f64),
+}
+
+impl Detail {
+    fn spacing_rad(self, radius_m: f64) -> f64 {
+        match self {
+            Detail::SpacingM(spacing_m) if spacing_m > 0.0 => spacing_m.min(radius_m) / radius_m,
+            _ => 0.0,
+        }
+    }
+}
+
 /// Memory for queries on one thread. It grows with the first query of a planet; later ones allocate nothing.
 #[derive(Default)]
 pub struct Scratch(pub(super) Box<BatchScratch>);
@@ -143,6 +164,34 @@ impl Terrain {
         let mut height_m = 0.0;
         with_scratch(|scratch| self.heights_into(&[dir_planet], std::slice::from_mut(&mut height_m), scratch));
         height_m
+    }
+
+    /// Sets how many bytes the rivers of each planet may keep for later queries, for the whole program: 192 MiB unless
+    /// told. What is not kept is made again at its next query, in some milliseconds a place. A point that stands alone
+    /// takes about 20 kB, on land.
+    pub fn keep_rivers(bytes: usize) {
+        keep_bytes(bytes);
+    }
+
+    /// Bytes that the rivers of this planet keep now.
+    pub fn kept_rivers_bytes(&self) -> usize {
+        self.world().carved.map().map_or(0, |carved| carved.rivers.kept_bytes())
+    }
+
+    /// [`Terrain::height_m`] of many directions with less of the rivers, on all cores.
+    pub fn heights_detailed_m(&self, dirs_planet: &[DVec3], detail: Detail) -> Vec<f64> {
+        self.heights_spaced_m(dirs_planet, detail.spacing_rad(self.planet.radius_m()))
+    }
+
+    /// [`Terrain::samples`] with less of the rivers.
+    pub fn samples_detailed(&self, dirs_planet: &[DVec3], wanted: Wanted, detail: Detail) -> Vec<Sample> {
+        let spacing_rad = detail.spacing_rad(self.planet.radius_m());
+        let mut samples = vec![Sample::default(); dirs_planet.len()];
+        let tasks = samples.par_chunks_mut(TASK).zip(dirs_planet.par_chunks(TASK));
+        tasks.for_each(|(samples, dirs)| {
+            with_scratch(|scratch| self.samples_spaced_into(dirs, spacing_rad, wanted, samples, scratch));
+        });
+        samples
     }
 
     /// [`Terrain::height_m`] of many directions, on all cores.
@@ -192,10 +241,7 @@ impl Terrain {
 
     /// The surface under many directions, on all cores.
     pub fn samples(&self, dirs_planet: &[DVec3], wanted: Wanted) -> Vec<Sample> {
-        let mut samples = vec![Sample::default(); dirs_planet.len()];
-        let tasks = samples.par_chunks_mut(TASK).zip(dirs_planet.par_chunks(TASK));
-        tasks.for_each(|(samples, dirs)| with_scratch(|scratch| self.samples_into(dirs, wanted, samples, scratch)));
-        samples
+        self.samples_detailed(dirs_planet, wanted, Detail::All)
     }
 
     /// As [`Terrain::samples`], on the calling thread and without allocating. `samples` has one for each direction;

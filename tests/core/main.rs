@@ -13,6 +13,7 @@
 //! - `system`: orbits and resonances
 //! - `rivers`: water on the whole course of rivers
 //! - `water`: rivers, lakes and weather of a structure
+//! - `spread`: points far apart among rivers
 //! - `atmosphere`: the CPU reference of the air
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
@@ -40,6 +41,7 @@ mod rivers;
 mod saving;
 mod sculpt;
 mod sphere;
+mod spread;
 mod stamp;
 mod structural;
 mod structure;

@@ -93,7 +93,11 @@ fn a_layer_over_it_is_added_and_one_under_it_is_carved() {
     let [bare_m, over_m, under_m, hills_m] =
         [bare, over, under, no_structure].map(|planet| heights_m(&terrain(&planet)));
     let added = |all: &[f64], i: usize| all[i] - bare_m[i];
-    assert!((0..POINTS).all(|i| (added(&over_m, i) - hills_m[i]).abs() < 1e-6));
+    // It stands aside for rivers and lakes.
+    let shares: Vec<f64> = (0..POINTS).map(|i| added(&over_m, i) / hills_m[i]).collect();
+    assert!(shares.iter().all(|share| (-1e-6..1.0 + 1e-6).contains(share)), "{shares:?}");
+    let whole = shares.iter().filter(|share| **share > 1.0 - 1e-6).count();
+    assert!(whole * 10 > POINTS * 8, "{whole} of {POINTS}");
     // Land and sea floor rise where the hills do, but on land not by all of it.
     let sum: f64 = (0..POINTS).map(|i| added(&under_m, i) * hills_m[i]).sum();
     let most: f64 = hills_m.iter().map(|m| m * m).sum();

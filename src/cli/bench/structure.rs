@@ -4,7 +4,7 @@ use super::{edits, median, opening_view, repeat};
 use crate::planet::{Planet, Structure};
 use crate::sphere::spread;
 use crate::terrain::coarse::CellFields;
-use crate::terrain::{Scratch, Terrain};
+use crate::terrain::{Detail, Scratch, Terrain};
 use crate::tiles::{MapWork, build_over};
 use crate::world::World;
 use crate::world::drainage;
@@ -27,6 +27,9 @@ const PATCHES: usize = 24;
 /// - `view_first_ms`, `view_ms`: the whole opening view with maps at hand, the first time and again
 /// - `cold_mps`, `warm_mps`: million heights a second on one core with all levels of rivers, where no river has been
 ///   asked for, and again
+/// - `agents_first_us`: microseconds of one core for the height under each of ten thousand people spread over the
+///   planet, the first time; `agents_ms`: milliseconds for all of them again, on all cores, after a step;
+///   `agents_spaced_ms`: those with the detail of points 500 m apart; `agents_kept_mb`: what is kept for them
 /// - `edits`: edits of the layers over the structure
 pub(super) fn measure(planet: &Planet) -> Result<Value, String> {
     let planet = Arc::new(planet.clone());
@@ -48,6 +51,7 @@ pub(super) fn measure(planet: &Planet) -> Result<Value, String> {
         timed();
     }));
     let [cold_mps, warm_mps] = patches_mps(&terrain);
+    let [agents_first_us, agents_ms, agents_spaced_ms] = agents(&terrain);
     Ok(json!({
         "draft_ms": draft_ms(&draft, &planet, |_| ())?,
         "draft_rivers_ms": draft_ms(&terrain, &planet, |structure| structure.rivers.erodibility *= 1.1)?,
@@ -58,6 +62,10 @@ pub(super) fn measure(planet: &Planet) -> Result<Value, String> {
         "view_ms": view_ms,
         "cold_mps": cold_mps,
         "warm_mps": warm_mps,
+        "agents_first_us": agents_first_us,
+        "agents_ms": agents_ms,
+        "agents_spaced_ms": agents_spaced_ms,
+        "agents_kept_mb": terrain.kept_rivers_bytes() as f64 * 1e-6,
         "edits": edits::measure(&planet, Some("layers")),
     }))
 }
@@ -101,6 +109,32 @@ fn solve(draft: &Terrain) -> Run {
         run.levels.push(row);
     }
     run
+}
+
+/// People spread over the planet, how far they go in a step, and the detail of those who need less.
+const AGENTS: usize = 10_000;
+const AGENT_STEP_M: f64 = 0.1;
+const AGENT_SPACING_M: f64 = 500.0;
+
+/// See `agents_first_us`, `agents_ms` and `agents_spaced_ms`.
+fn agents(terrain: &Terrain) -> [f64; 3] {
+    let mut dirs: Vec<DVec3> = spread(AGENTS).collect();
+    let begun = Instant::now();
+    terrain.heights_m(&dirs);
+    let cores = rayon::current_num_threads() as f64;
+    let first_us = begun.elapsed().as_secs_f64() * 1e6 * cores / AGENTS as f64;
+    let step_rad = AGENT_STEP_M / terrain.planet().radius_m();
+    let mut tick_ms = |detail: Detail| {
+        let mut times = repeat(|| {
+            for dir in &mut dirs {
+                *dir = (*dir + dir.any_orthonormal_vector() * step_rad).normalize();
+            }
+            terrain.heights_detailed_m(&dirs, detail);
+        });
+        times.sort_by(f64::total_cmp);
+        median(&times).unwrap_or(f64::NAN)
+    };
+    [first_us, tick_ms(Detail::All), tick_ms(Detail::SpacingM(AGENT_SPACING_M))]
 }
 
 /// Million heights a second of patches that nobody has asked for yet, and of the same again.

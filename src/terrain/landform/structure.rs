@@ -66,16 +66,19 @@ struct LayerShares {
 }
 
 impl Memory {
-    /// Evaluates rivers at the points of a chunk. The answers are in `points`.
-    fn evaluate(&mut self, rivers: &Rivers, chunk: &Chunk<'_>, levels: usize) {
+    /// Evaluates rivers at the points of a chunk. The answers are in `points`, the shares of layers in the chunk whose
+    /// place is returned.
+    fn evaluate(&mut self, rivers: &Rivers, chunk: &Chunk<'_>, levels: usize) -> usize {
         rivers.evaluate(chunk.dirs, levels, &mut self.cache, &mut self.points);
+        // Queries ask for one chunk at a time.
+        self.next = if chunk.point_spacing_rad > 0.0 { (self.next + 1) % CHUNKS } else { 0 };
         let kept = &mut self.chunks[self.next];
-        self.next = (self.next + 1) % CHUNKS;
         (kept.rivers, kept.levels) = (rivers.number(), levels);
         kept.dirs.clear();
         kept.dirs.extend_from_slice(chunk.dirs);
         kept.shares.clear();
         kept.shares.extend(self.points.iter().map(|point| point.layers));
+        self.next
     }
 }
 
@@ -90,11 +93,8 @@ pub(super) fn layer_shares(
     MEMORY.with_borrow_mut(|memory| {
         let is_same =
             |kept: &LayerShares| kept.rivers == rivers.number() && kept.levels == levels && kept.dirs == chunk.dirs;
-        let kept = memory.chunks.iter().position(is_same).unwrap_or_else(|| {
-            let next = memory.next;
-            memory.evaluate(rivers, chunk, levels);
-            next
-        });
+        let kept = memory.chunks.iter().position(is_same);
+        let kept = kept.unwrap_or_else(|| memory.evaluate(rivers, chunk, levels));
         answer(&memory.chunks[kept].shares, levels, &seen[..chunk.spacings_rad.len()]);
     });
 }

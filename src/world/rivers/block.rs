@@ -12,7 +12,7 @@ const BUCKETS: usize = BLOCK * RATIO;
 
 /// The pieces that the ground of a square of cells depends on. Their order is the same in every block: by level, then
 /// by cell, then along the reach.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Block {
     /// The lines of the pieces, and apart from them, because few points ask for it, what flows there.
     pub(super) lines: Vec<Line>,
@@ -20,9 +20,11 @@ pub(super) struct Block {
     /// For each bucket the start of its list; the last one ends all.
     starts: Vec<u32>,
     lists: Vec<u16>,
-    /// Buckets along the side of a face, and the first of this block.
+    face: usize,
+    /// Buckets along the side of the face; the first of this block, and how many it has along its side.
     side: usize,
     corner: [usize; 2],
+    buckets: usize,
 }
 
 /// The block that holds a cell: its number among the blocks of a level.
@@ -72,7 +74,53 @@ impl Block {
         }
         lines.shrink_to_fit();
         streams.shrink_to_fit();
-        Self { lines, streams, starts, lists, side: touch.side, corner: touch.corner }
+        let Touch { face, side, corner, .. } = touch;
+        Self { lines, streams, starts, lists, face, side, corner, buckets: BUCKETS }
+    }
+
+    /// A square of `buckets` by `buckets` buckets of this block alone, from one of them on.
+    pub(super) fn cropped(&self, [left, top]: [usize; 2], buckets: usize) -> Self {
+        let rows = (top..top + buckets).map(|y| y.saturating_sub(self.corner[1]).min(self.buckets - 1));
+        let rows: Vec<usize> = rows.collect();
+        let columns = (left..left + buckets).map(|x| x.saturating_sub(self.corner[0]).min(self.buckets - 1));
+        let columns: Vec<usize> = columns.collect();
+        let all = || rows.iter().flat_map(|y| columns.iter().map(move |x| self.list(y * self.buckets + x)));
+        // Pieces keep their order.
+        let mut numbers: Vec<u16> = all().flatten().copied().collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let place = |number: &u16| numbers.binary_search(number).unwrap_or(0) as u16;
+        let mut starts = vec![0];
+        let mut lists = Vec::new();
+        for list in all() {
+            lists.extend(list.iter().map(place));
+            starts.push(lists.len() as u32);
+        }
+        Self {
+            lines: numbers.iter().map(|&number| self.lines[usize::from(number)]).collect(),
+            streams: numbers.iter().map(|&number| self.streams[usize::from(number)]).collect(),
+            starts,
+            lists,
+            corner: [left, top],
+            buckets,
+            ..*self
+        }
+    }
+
+    /// Whether a place lies in it.
+    #[inline(always)]
+    pub(super) fn covers(&self, place: &FacePlace) -> bool {
+        let is_within = |w: f64, corner: usize| {
+            ((w * self.side as f64) as usize).min(self.side - 1).wrapping_sub(corner) < self.buckets
+        };
+        self.face == place.face && is_within(place.x, self.corner[0]) && is_within(place.y, self.corner[1])
+    }
+
+    fn list(&self, bucket: usize) -> &[u16] {
+        match self.starts.get(bucket..bucket + 2) {
+            Some(ends) => &self.lists[ends[0] as usize..ends[1] as usize],
+            None => &[],
+        }
     }
 
     /// A piece by its number.
@@ -94,23 +142,23 @@ impl Block {
 
     /// Resident size.
     pub(super) fn bytes(&self) -> usize {
-        self.lines.len() * (size_of::<Line>() + size_of::<Stream>()) + 4 * self.starts.len() + 2 * self.lists.len()
+        size_of::<Self>()
+            + self.lines.len() * (size_of::<Line>() + size_of::<Stream>())
+            + 4 * self.starts.len()
+            + 2 * self.lists.len()
     }
 
     /// Numbers of the pieces that the ground at a place of the block depends on, in their order.
     #[inline(always)]
     pub(super) fn near(&self, place: &FacePlace) -> &[u16] {
-        let at = |w: f64, corner: usize| ((w * self.side as f64) as usize).saturating_sub(corner).min(BUCKETS - 1);
-        let bucket = at(place.y, self.corner[1]) * BUCKETS + at(place.x, self.corner[0]);
-        match self.starts.get(bucket..bucket + 2) {
-            Some(ends) => &self.lists[ends[0] as usize..ends[1] as usize],
-            None => &[],
-        }
+        let at = |w: f64, corner: usize| ((w * self.side as f64) as usize).saturating_sub(corner).min(self.buckets - 1);
+        self.list(at(place.y, self.corner[1]) * self.buckets + at(place.x, self.corner[0]))
     }
 }
 
 /// Tells which buckets of a block a piece touches.
 pub(super) struct Touch {
+    face: usize,
     /// Buckets along the side of a face, and the first of the block.
     side: usize,
     corner: [usize; 2],
@@ -139,7 +187,7 @@ impl Touch {
             p / p.dot(out) - out
         };
         let corner = [number % blocks * BUCKETS, number / blocks % blocks * BUCKETS];
-        Self { side: grid.side * RATIO, corner, axes: [out, step(2.0, 1.0), step(1.0, 2.0)] }
+        Self { face, side: grid.side * RATIO, corner, axes: [out, step(2.0, 1.0), step(1.0, 2.0)] }
     }
 
     /// Whether a piece touches the block with its influence divided by `finer`.

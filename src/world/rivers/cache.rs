@@ -1,68 +1,132 @@
 //! Blocks that were built, kept for all threads. What is kept changes no answer.
+//!
+//! Points that lie close together share blocks. Points that are spread over the planet, such as the people of a game,
+//! would need more blocks than memory holds: the pieces near the cell of such a point, its spot, are a few kilobytes,
+//! and are kept when the blocks that they were taken from are gone.
 
 use super::block::Block;
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Levels of reaches: those of the solved drainage, and three of tributaries.
 pub(crate) const LEVELS: usize = 4;
 
-/// Shelves, each with a lock of its own, and bytes kept on each.
+/// Shelves, each with a lock of its own.
 const SHELVES: usize = 16;
-const SHELF_BYTES: usize = 8 << 20;
+/// Bytes that are kept unless a program asks for another number.
+const BYTES: usize = 192 << 20;
+/// Share of them that is for spots.
+const SPOTS: usize = 3;
 
-/// The blocks that were used last.
-#[derive(Default)]
-pub(super) struct Blocks {
-    shelves: [Mutex<Shelf>; SHELVES],
+/// Bytes that the rivers of each planet may keep.
+static MOST_BYTES: AtomicUsize = AtomicUsize::new(BYTES);
+
+/// Sets how many bytes the rivers of each planet may keep.
+pub(crate) fn keep_bytes(bytes: usize) {
+    MOST_BYTES.store(bytes, Ordering::Relaxed);
 }
 
+/// The pieces of the first levels near a cell of the last of these.
+pub(super) type Spot = [Option<Arc<Block>>; LEVELS];
+
+/// The blocks and spots that were used last.
 #[derive(Default)]
-struct Shelf {
-    /// By level and number, with the time of the last use.
-    blocks: BTreeMap<(usize, u64), (Arc<Block>, u64)>,
-    bytes: usize,
-    clock: u64,
+pub(super) struct Blocks {
+    /// By level and number.
+    blocks: Shelves<(usize, u64), Arc<Block>>,
+    /// By how many levels they have, and the number of the cell.
+    spots: Shelves<(usize, u64), Spot>,
 }
 
 impl Blocks {
     /// A block; `build` makes it if it is not there.
     pub(super) fn get(&self, level: usize, number: u64, build: impl FnOnce() -> Block) -> Arc<Block> {
-        let shelf = || self.shelves[(number % SHELVES as u64) as usize].lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(block) = shelf().find(level, number) {
+        if let Some(block) = self.blocks.find(number, &(level, number)) {
             return block;
         }
         // Built outside the lock. Another thread may build it too: both are equal.
         let block = Arc::new(build());
-        shelf().keep(level, number, &block);
+        let most = MOST_BYTES.load(Ordering::Relaxed);
+        self.blocks.keep(number, (level, number), &block, block.bytes(), most - most / SPOTS);
         block
     }
 
-    /// How many are kept.
+    /// The spot of a cell, if it is kept.
+    pub(super) fn spot(&self, levels: usize, cell: u64) -> Option<Spot> {
+        self.spots.find(cell, &(levels, cell))
+    }
+
+    pub(super) fn keep_spot(&self, levels: usize, cell: u64, spot: &Spot) {
+        let bytes = spot.iter().flatten().map(|block| block.bytes()).sum();
+        self.spots.keep(cell, (levels, cell), spot, bytes, MOST_BYTES.load(Ordering::Relaxed) / SPOTS);
+    }
+
+    /// Bytes that are kept.
+    pub(super) fn bytes(&self) -> usize {
+        self.blocks.bytes() + self.spots.bytes()
+    }
+
+    /// How many blocks are kept.
     #[cfg(all(test, feature = "editor"))]
     pub(super) fn count(&self) -> usize {
-        self.shelves.iter().map(|shelf| shelf.lock().unwrap_or_else(PoisonError::into_inner).blocks.len()).sum()
+        self.blocks.0.iter().map(|shelf| shelf.lock().unwrap_or_else(PoisonError::into_inner).kept.len()).sum()
     }
 }
 
-impl Shelf {
-    fn find(&mut self, level: usize, number: u64) -> Option<Arc<Block>> {
-        self.clock += 1;
-        let (found, used) = self.blocks.get_mut(&(level, number))?;
-        *used = self.clock;
-        Some(found.clone())
+struct Shelves<K, V>([Mutex<Shelf<K, V>>; SHELVES]);
+
+/// Values with their bytes and the time of their last use.
+struct Shelf<K, V> {
+    kept: BTreeMap<K, (V, usize, u64)>,
+    bytes: usize,
+    clock: u64,
+}
+
+impl<K, V> Default for Shelves<K, V> {
+    fn default() -> Self {
+        let empty = || Shelf { kept: BTreeMap::new(), bytes: 0, clock: 0 };
+        Self(std::array::from_fn(|_| Mutex::new(empty())))
+    }
+}
+
+impl<K: Copy + Ord, V: Clone> Shelves<K, V> {
+    fn find(&self, number: u64, key: &K) -> Option<V> {
+        self.shelf(number).lock().unwrap_or_else(PoisonError::into_inner).find(key)
     }
 
-    fn keep(&mut self, level: usize, number: u64, block: &Arc<Block>) {
-        self.bytes += block.bytes();
-        if let Some((old, _)) = self.blocks.insert((level, number), (block.clone(), self.clock)) {
-            self.bytes -= old.bytes();
+    fn keep(&self, number: u64, key: K, value: &V, bytes: usize, most_bytes: usize) {
+        let mut shelf = self.shelf(number).lock().unwrap_or_else(PoisonError::into_inner);
+        shelf.keep(key, value.clone(), bytes, most_bytes / SHELVES);
+    }
+
+    fn bytes(&self) -> usize {
+        self.0.iter().map(|shelf| shelf.lock().unwrap_or_else(PoisonError::into_inner).bytes).sum()
+    }
+
+    fn shelf(&self, number: u64) -> &Mutex<Shelf<K, V>> {
+        &self.0[(number % SHELVES as u64) as usize]
+    }
+}
+
+impl<K: Copy + Ord, V: Clone> Shelf<K, V> {
+    fn find(&mut self, key: &K) -> Option<V> {
+        self.clock += 1;
+        let (value, _, used) = self.kept.get_mut(key)?;
+        *used = self.clock;
+        Some(value.clone())
+    }
+
+    fn keep(&mut self, key: K, value: V, bytes: usize, most_bytes: usize) {
+        self.bytes += bytes;
+        if let Some((_, old_bytes, _)) = self.kept.insert(key, (value, bytes, self.clock)) {
+            self.bytes -= old_bytes;
         }
-        while self.bytes > SHELF_BYTES
-            && let Some(oldest) = self.blocks.iter().min_by_key(|(_, (_, used))| *used).map(|(key, _)| *key)
-            && let Some((old, _)) = self.blocks.remove(&oldest)
+        while self.bytes > most_bytes
+            && let Some(oldest) = self.kept.iter().min_by_key(|(_, (.., used))| *used).map(|(key, _)| *key)
+            && let Some((_, bytes, _)) = self.kept.remove(&oldest)
         {
-            self.bytes -= old.bytes();
+            self.bytes -= bytes;
         }
     }
 }
@@ -72,8 +136,10 @@ impl Shelf {
 pub(crate) struct Cache {
     /// The rivers that the blocks belong to.
     owner: u64,
-    /// The block of each level that was used last.
+    /// The block of each level that was used last, or that of a spot, with a number of its own.
     pub(super) current: [Option<(u64, Arc<Block>)>; LEVELS],
+    /// How many blocks the thread has built.
+    pub(super) built: u64,
 }
 
 impl Cache {

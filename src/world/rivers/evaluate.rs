@@ -4,7 +4,7 @@ use super::blend::{Jet, Level, Nearest, laid_over, level};
 use super::block::{Block, block_of};
 use super::cache::{Cache, LEVELS};
 use super::channel::Cut;
-use super::grid::{FacePlace, Grid};
+use super::grid::{FacePlace, Grid, RATIO};
 use super::reach::FREEBOARD;
 use super::shore::{Lakeside, sunk};
 use super::{LayerShare, River, RiverPoint, Rivers};
@@ -55,21 +55,71 @@ pub(super) struct Ground {
 impl Rivers {
     /// The block of a level, built if it is not there.
     pub(super) fn block(&self, level: usize, number: u64, cache: &mut Cache) -> Arc<Block> {
-        self.blocks.get(level, number, || match level {
-            0 => self.trunk_block(number),
-            _ => self.tributary_block(&self.grids[level], number, cache),
+        self.blocks.get(level, number, || {
+            cache.built += 1;
+            match level {
+                0 => self.trunk_block(number),
+                _ => self.tributary_block(&self.grids[level], number, cache),
+            }
         })
     }
 
-    /// Makes the blocks of the first levels at a direction current.
+    /// Makes the blocks of the first levels at a place current. `alone`: for a point that was asked for, which may stand
+    /// alone, not for a node of a block that is built.
     #[inline(always)]
-    pub(super) fn find_blocks(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
+    pub(super) fn find_blocks(&self, place: &FacePlace, levels: usize, alone: bool, cache: &mut Cache) {
+        let is_current =
+            |current: &Option<(u64, Arc<Block>)>| current.as_ref().is_some_and(|(_, block)| block.covers(place));
+        if !cache.current[..levels].iter().all(is_current) {
+            if alone {
+                self.find_spot(place, levels, cache);
+            } else {
+                self.find_whole(place, levels, cache);
+            }
+        }
+    }
+
+    /// The same where a block is not current, by the spot of the place if there is one. Where a block had to be built, it
+    /// leaves a spot: others may need the memory of the block before the place is asked for again.
+    #[inline(never)]
+    fn find_spot(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
+        let Some(finest) = self.grids[..levels].last() else { return };
+        let cell = finest.cell_at(place);
+        let cell_number = finest.index(cell);
+        if let Some(spot) = self.blocks.spot(levels, cell_number) {
+            for (current, block) in cache.current.iter_mut().zip(spot) {
+                // Numbers of blocks are far smaller.
+                *current = block.map(|block| (cell_number | 1 << 63, block));
+            }
+            return;
+        }
+        let built = cache.built;
+        self.find_whole(place, levels, cache);
+        if cache.built == built {
+            return;
+        }
+        let mut spot = [const { None }; LEVELS];
+        for (level, (slot, current)) in spot.iter_mut().zip(&cache.current).enumerate().take(levels) {
+            let Some((_, block)) = current else { return };
+            // A cell of the next level is a bucket of this one.
+            *slot = Some(Arc::new(if level + 1 == levels {
+                block.cropped([cell.x * RATIO, cell.y * RATIO], RATIO)
+            } else {
+                let per_bucket = RATIO.pow((levels - 2 - level) as u32);
+                block.cropped([cell.x / per_bucket, cell.y / per_bucket], 1)
+            }));
+        }
+        self.blocks.keep_spot(levels, cell_number, &spot);
+    }
+
+    /// The same with whole blocks, which are built if they are not there.
+    fn find_whole(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
         // Building a block moves the current blocks of coarser levels, so that the search starts again.
         loop {
             let mut moved = false;
             for (level, grid) in self.grids[..levels].iter().enumerate() {
-                let number = block_of(grid, grid.cell_at(place));
-                if cache.current[level].as_ref().is_none_or(|(current, _)| *current != number) {
+                if cache.current[level].as_ref().is_none_or(|(_, block)| !block.covers(place)) {
+                    let number = block_of(grid, grid.cell_at(place));
                     let block = self.block(level, number, cache);
                     cache.current[level] = Some((number, block));
                     moved = true;
@@ -92,7 +142,7 @@ impl Rivers {
         mut cut: Option<(&mut Cut, &mut [Jet; LEVELS + 1])>,
     ) -> Ground {
         let face_place = FacePlace::new(dir);
-        self.find_blocks(&face_place, levels, cache);
+        self.find_blocks(&face_place, levels, cut.is_some(), cache);
         let tangential = |(value, gradient): (f64, DVec3)| Jet { value, gradient: gradient - dir * gradient.dot(dir) };
         let [heights, reliefs] = &self.rasters;
         let place = heights.place(dir);

@@ -6,7 +6,7 @@
 //!   `window`: the cells around a block
 //! - `tributaries`: the reaches between them, which drain into those before
 //! - `reach`: the curve, bed and channel of a reach, cut into straight pieces; `winding`: their bends on finer levels
-//! - `block`: pieces near a square of cells, listed by bucket; `cache`: blocks that were built
+//! - `block`: pieces near a square of cells, listed by bucket; `cache`: blocks that were built, and the spots of points that stand alone
 //! - `blend`: the ground of one level at a point, laid over the level before
 //! - `channel`: the beds of rivers at a point, and how far layers over the structure stand from them
 //! - `courses`: rivers from source to mouth
@@ -45,7 +45,7 @@ use super::drainage::Drainage;
 use crate::sphere::raster::Raster;
 use bounds::Bounds;
 use cache::Blocks;
-pub(crate) use cache::{Cache, LEVELS};
+pub(crate) use cache::{Cache, LEVELS, keep_bytes};
 pub(crate) use courses::CourseEnd;
 pub(crate) use flow::Flow;
 use glam::DVec3;
@@ -136,6 +136,11 @@ impl Rivers {
     /// Tells these rivers from all others of the process.
     pub(crate) fn number(&self) -> u64 {
         self.number
+    }
+
+    /// Bytes of the blocks and spots that are kept.
+    pub(crate) fn kept_bytes(&self) -> usize {
+        self.blocks.bytes()
     }
 
     /// How many blocks are kept.
