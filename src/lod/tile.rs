@@ -1,7 +1,7 @@
 //! A tile: the mesh data of one node, for any renderer.
 
 use crate::sphere::{Face, NodeId};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// Quads along a tile's side.
 pub const TILE_QUADS: usize = 32;
@@ -91,7 +91,8 @@ pub struct Vertex {
     pub temperature_c: f32,
     /// Moisture at the same level, before it is clamped to 0 (dry) to 1 (wet).
     pub moisture: f32,
-    /// Unit normal in the planet frame, octahedral, snorm; terrain finer than twice the vertex spacing is faded out.
+    /// Unit normal in the planet frame, octahedral, snorm: [`normal_of_oct`] reads it. Terrain finer than twice the
+    /// vertex spacing is faded out.
     pub normal_oct: [i16; 2],
     /// The normal of the parent tile at this point: blend to it with distance, so that no level change shows.
     pub parent_normal_oct: [i16; 2],
@@ -107,6 +108,17 @@ impl Vertex {
     pub fn position_planet_m(&self) -> DVec3 {
         DVec3::from_array(self.position_high_m.map(f64::from)) + DVec3::from_array(self.position_low_m.map(f64::from))
     }
+}
+
+/// The unit normal that two snorm numbers stand for, as in [`Vertex::normal_oct`]: the octahedron |x| + |y| + |z| = 1,
+/// seen along z, its lower half folded over the edges of the upper one (Cigolle et al. 2014, "A survey of efficient
+/// representations for independent unit vectors"). Any two numbers have one.
+pub fn normal_of_oct(oct: [i16; 2]) -> Vec3 {
+    // The least number stands for -1, too.
+    let [x, y] = oct.map(|w| (f32::from(w) / 32767.0).max(-1.0));
+    let z = 1.0 - x.abs() - y.abs();
+    let fold = (-z).max(0.0);
+    Vec3::new(x - fold.copysign(x), y - fold.copysign(y), z).normalize()
 }
 
 /// Quads along the side of a block.
@@ -144,4 +156,47 @@ pub struct Tile {
     pub bounding_radius_m: f64,
     /// [`BLOCKS_SIDE`] rows of [`BLOCKS_SIDE`] blocks.
     pub blocks: [Block; BLOCKS_SIDE * BLOCKS_SIDE],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lod::{Quality, opening};
+    use crate::planet::Planet;
+    use crate::sphere::spread;
+    use crate::terrain::Terrain;
+    use std::sync::Arc;
+
+    #[test]
+    fn normals_of_a_tile_are_read_back() {
+        // Smooth: nothing of it is finer than the vertices.
+        let text = r#"(version: 3, name: "Islet", radius_km: 40.0,
+            layers: [(name: "Hills", amplitude_m: 3000.0, shape: Fbm(wavelength_km: 60.0, octaves: 1))])"#;
+        let planet: Arc<Planet> = Planet::from_text("islet.ron", text).unwrap().into();
+        let terrain = Terrain::try_new(planet.clone()).unwrap();
+        let view = opening::opening_view(&planet, [640, 360], Quality::Low);
+        let surface = crate::tiles::build_now(&planet, &view).unwrap();
+        let vertices = surface.leaves.iter().flat_map(|leaf| leaf.tile.vertices.iter().step_by(29));
+        let mut below = 0;
+        for vertex in vertices {
+            let wanted = terrain.sample(vertex.position_planet_m()).normal_planet;
+            let found = normal_of_oct(vertex.normal_oct);
+            assert!(found.as_dvec3().distance(wanted) < 1e-3, "{found} {wanted}");
+            below += usize::from(found.z < 0.0);
+        }
+        assert!(below > 100, "{below} are of the lower half");
+    }
+
+    #[test]
+    fn any_two_numbers_are_a_unit_normal_and_the_corners_are_the_axes() {
+        for dir in spread(500) {
+            let oct = [dir.x, dir.y].map(|w| (w * 40_000.0) as i16);
+            assert!((normal_of_oct(oct).length() - 1.0).abs() < 1e-6);
+        }
+        const ONE: i16 = 32767;
+        let corners = [([0, 0], Vec3::Z), ([ONE, 0], Vec3::X), ([0, -ONE], -Vec3::Y), ([ONE, ONE], -Vec3::Z)];
+        for (oct, normal) in corners.into_iter().chain([([i16::MIN, 0], -Vec3::X)]) {
+            assert!(normal_of_oct(oct).distance(normal) < 1e-6, "{oct:?}");
+        }
+    }
 }
