@@ -39,6 +39,11 @@ impl Bloom {
         Self { picture_px, levels: sizes(picture_px).into_iter().map(texture).collect() }
     }
 
+    /// Memory of all levels.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        gpu::view_bytes(&self.levels)
+    }
+
     /// The light that the lens scatters over the picture, exposed.
     pub(crate) fn light(&self) -> Option<&wgpu::TextureView> {
         self.levels.first()

@@ -69,6 +69,11 @@ impl BodyTiles {
         done
     }
 
+    /// Memory of all pools.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        self.pool.resident_bytes() + self.details.resident_bytes() + self.horizons.resident_bytes()
+    }
+
     /// Bytes uploaded since the start.
     pub(crate) fn uploaded_bytes(&self) -> u64 {
         self.pool.uploaded_bytes() + self.details.uploaded_bytes() + self.horizons.uploaded_bytes()

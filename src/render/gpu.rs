@@ -116,6 +116,22 @@ pub(crate) fn target(
     texture(device, label, size_px, format).create_view(&wgpu::TextureViewDescriptor::default())
 }
 
+/// Memory of a texture: all levels and layers.
+pub(crate) fn texture_bytes(texture: &wgpu::Texture) -> u64 {
+    let level = |level| {
+        let wgpu::Extent3d { width, height, depth_or_array_layers } =
+            texture.size().mip_level_size(level, texture.dimension());
+        u64::from(width) * u64::from(height) * u64::from(depth_or_array_layers)
+    };
+    let texels: u64 = (0..texture.mip_level_count()).map(level).sum();
+    texels * u64::from(texture.format().block_copy_size(None).unwrap_or(0))
+}
+
+/// Memory of the textures behind some views.
+pub(crate) fn view_bytes<'a>(views: impl IntoIterator<Item = &'a wgpu::TextureView>) -> u64 {
+    views.into_iter().map(|view| texture_bytes(view.texture())).sum()
+}
+
 /// A texture with several layers: the views of all of them together, and of each for drawing into it.
 pub(crate) fn layered_target(
     device: &wgpu::Device,

@@ -82,6 +82,11 @@ impl GroundView {
         Self { morph: Morph::new(device), instances: instance_buffer(device, 1024), draws: Vec::new() }
     }
 
+    /// Memory of the buffers.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        self.morph.resident_bytes() + self.instances.size()
+    }
+
     /// Selects the tiles that `view` sees, and uploads those that are not on the GPU yet.
     pub(crate) fn prepare(
         &mut self,

@@ -123,6 +123,12 @@ pub(crate) struct CloudFrame {
 }
 
 impl CloudHistory {
+    /// Memory of the pictures.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        let pictures = self.pictures.iter().chain(self.marched.as_ref().map(|(_, picture)| picture));
+        pictures.map(|picture| gpu::view_bytes([&picture.light, &picture.distance])).sum()
+    }
+
     /// Prepares the history of a frame with clouds, and sets the uniforms of the body. Gives whether clouds are carried
     /// over.
     pub(crate) fn prepare(history: &mut Option<Self>, device: &wgpu::Device, of: &CloudFrame, out: &mut Body) -> bool {

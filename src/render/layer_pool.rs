@@ -141,6 +141,11 @@ impl LayerPool {
         self.uploaded_bytes
     }
 
+    /// Memory of the texture arrays.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        self.textures.iter().flatten().map(gpu::texture_bytes).sum()
+    }
+
     /// Uploads a tile ahead of the frame that draws it, if its bytes are `affordable`; a tile already in the pool keeps
     /// its layer. `texels`: as for [`LayerPool::place`]. Returns false if the tile has to wait.
     pub(crate) fn place_ahead(

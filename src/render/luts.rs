@@ -106,6 +106,13 @@ impl Patterns {
     }
 }
 
+impl Patterns {
+    /// Memory of all textures.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        gpu::view_bytes(self.noise.iter().chain([&self.materials.tint, &self.materials.surface]))
+    }
+}
+
 /// The pipelines that draw LUTs.
 pub(crate) struct LutPipelines {
     air: Vec<wgpu::RenderPipeline>,
@@ -196,6 +203,12 @@ impl Luts {
             biome_texels,
             runs: LutRuns::default(),
         }
+    }
+
+    /// Memory of all textures.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        let rest = [&self.clouds.cubes, &self.map_picture, &self.biomes.ids, &self.biomes.params];
+        gpu::view_bytes(self.air.iter().map(|lut| &lut.all).chain(rest))
     }
 
     /// The bind group for drawing.

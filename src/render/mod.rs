@@ -19,6 +19,7 @@
 //! - `uniforms`, `shared`, `wgsl`: what Rust and WGSL share, from one source; [`shaders`]: includes, checks, hot reload
 //! - `worlds`: the bodies of a system around a camera: places, lights, points
 //! - `gpu`: helpers around wgpu; `sky_probe`: single rays through the shaders of the air
+//! - `resident`: the memory that all of it takes
 //!
 //! Each pass is named like its shader in `shaders/`. A new pass is a file here, a file there, and a line in `passes`.
 
@@ -54,6 +55,7 @@ mod photo;
 mod pool;
 mod prepared;
 mod renderer;
+mod resident;
 mod scene;
 mod screen_pass;
 pub mod shaders;

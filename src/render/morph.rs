@@ -149,6 +149,11 @@ impl Morph {
         }
     }
 
+    /// Memory of the buffers.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        self.parts.iter().map(|part| part.shown.size() + part.jobs.size()).sum()
+    }
+
     /// Morphed values for a vertex buffer of the pool.
     pub(crate) fn of(&self, buffer: usize) -> Option<&wgpu::Buffer> {
         self.parts.get(buffer).map(|part| &part.shown)

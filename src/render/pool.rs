@@ -68,6 +68,11 @@ impl TilePool {
         self.uploaded_bytes
     }
 
+    /// Memory of the vertex buffers.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        self.buffers.iter().map(wgpu::Buffer::size).sum()
+    }
+
     /// Whether a tile has a slot. If so, it is marked as requested in this round.
     pub(crate) fn holds(&mut self, tile: &Tile) -> bool {
         let held = self.held.get_mut(&tile.serial);

@@ -105,6 +105,11 @@ impl Targets {
         self.textures.entry(owned).or_insert_with(|| gpu::target(device, &format!("{owned:?}"), size_px, format));
     }
 
+    /// Memory of all textures.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        gpu::view_bytes(self.textures.values())
+    }
+
     /// A texture that was made.
     pub(crate) fn get(&self, owned: Owned) -> Option<&wgpu::TextureView> {
         self.textures.get(&owned)

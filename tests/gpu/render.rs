@@ -373,7 +373,10 @@ fn a_surface_uploaded_ahead_is_there_when_it_is_drawn() {
     assert!(rounds > 5 && all > surface.leaves.len() as u64 * tile_bytes, "{rounds} {all}");
     let ahead = fresh.draw(&frame(&surface, &planet, camera, (12.0, 0.0)));
     assert_eq!(fresh.renderer.uploaded_bytes(), all, "nothing is uploaded twice");
+    let resident = fresh.renderer.resident_bytes();
+    assert!(resident > all && resident < 1 << 30, "{resident}");
     fresh.renderer.forget_body(BodyId::default());
+    assert!(fresh.renderer.resident_bytes() + all < resident, "what is forgotten takes no memory");
     assert_eq!(fresh.renderer.uploaded_bytes(), all, "what was uploaded stays counted");
     assert_eq!(ahead, gpu().draw(&frame(&surface, &planet, camera, (12.0, 0.0))));
 }

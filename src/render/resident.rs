@@ -1,0 +1,23 @@
+//! The memory on the GPU that a renderer holds.
+
+use super::history::CloudHistory;
+use super::renderer::{BodyView, Renderer, ViewResources};
+
+impl Renderer {
+    /// Memory on the GPU that the renderer holds now: tiles and LUTs of its bodies, textures of its views, and the
+    /// patterns, which siblings share. What the driver and staging take comes on top.
+    pub fn resident_bytes(&self) -> u64 {
+        let bodies = self.bodies.values().map(|body| body.tiles.resident_bytes() + body.luts.resident_bytes());
+        self.patterns.resident_bytes() + bodies.sum::<u64>() + self.views.values().map(of_view).sum::<u64>()
+    }
+}
+
+fn of_view(view: &ViewResources) -> u64 {
+    let still = view.still.as_ref().map_or(0, |still| still.targets.resident_bytes());
+    let bodies: u64 = view.bodies.values().map(of_body).sum();
+    view.targets.resident_bytes() + view.bloom.resident_bytes() + still + bodies
+}
+
+fn of_body(body: &BodyView) -> u64 {
+    body.ground.resident_bytes() + body.clouds.as_ref().map_or(0, CloudHistory::resident_bytes)
+}
