@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // In a game loop: the caller's own memory, so that no frame allocates.
     let (mut heights_m, mut scratch) = (vec![0.0; around.len()], Scratch::default());
-    terrain.heights_into(&around, &mut heights_m, &mut scratch);
+    terrain.heights_into(&around, &mut heights_m, &mut scratch)?;
     let eye_m = around[0] * (planet.radius_m() + heights_m[0].max(planet.sea_level_m().unwrap_or(0.0)) + 50.0);
     if let Some(distance_m) = terrain.raycast_with(eye_m, around[1] - around[0] * 1.01, &mut scratch) {
         println!("a ray from 50 m meets the ground after {distance_m:.1} m");

@@ -108,7 +108,7 @@ fn answer(terrain: &Terrain, connection: &TcpStream) -> Result<(), Failure> {
         }
         samples.clear();
         samples.resize(dirs.len(), Sample::default());
-        terrain.samples_into(&dirs, Wanted::HEIGHT.and_biome(), &mut samples, &mut scratch);
+        terrain.samples_into(&dirs, Wanted::HEIGHT.and_biome(), &mut samples, &mut scratch)?;
         for sample in &samples {
             writeln!(answers, "{},{}", sample.height_m, terrain.planet().biomes.palette[sample.biome].name)?;
         }

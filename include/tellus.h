@@ -318,9 +318,10 @@ bool tellus_chunk(const struct TellusPlanet *planet,
                   float *normals);
 
 /**
- * How far a capsule moves until it touches the ground: all points within `radius_m` of the line between two ends (3
- * numbers each, planet frame, metres from the centre; a ball has both in one place). `motion_m` has 3 numbers. 1 and
- * `contact` written if it touches, 0 if it does not, -1 if that failed. The sea does not count.
+ * How far a capsule moves until it is `skin_m` from the ground: all points within `radius_m` of the line between two
+ * ends (3 numbers each, planet frame, metres from the centre; a ball has both in one place). `motion_m` has 3 numbers.
+ * What touches may leave. 1 and `contact` written if it is stopped, 0 if it is not, -1 if that failed. The sea does
+ * not count.
  *
  * # Safety
  * `planet` is NULL or a planet of this library; `ends_m` is NULL or holds 6 numbers, `motion_m` is NULL or holds 3,
@@ -330,6 +331,7 @@ int32_t tellus_sweep(const struct TellusPlanet *planet,
                      const double *ends_m,
                      double radius_m,
                      const double *motion_m,
+                     double skin_m,
                      struct TellusContact *contact);
 
 #ifdef __cplusplus

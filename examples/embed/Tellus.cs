@@ -181,13 +181,13 @@ namespace Tellus
             Check(Native.tellus_tile_indices(cells + 1, indices));
         }
 
-        /// How far a capsule between two ends (six numbers) moves until it touches the ground; null if it does not.
-        public Contact? Sweep(double[] endsM, double radiusM, double[] motionM)
+        /// How far a capsule between two ends (six numbers) moves until it is skinM from the ground; null if it does not.
+        public Contact? Sweep(double[] endsM, double radiusM, double[] motionM, double skinM = 0.0)
         {
             if (endsM.Length != 6 || motionM.Length != 3)
                 throw new ArgumentException("ends have six numbers, a motion three");
             var contact = new Contact[1];
-            int touches = Native.tellus_sweep(this, endsM, radiusM, motionM, contact);
+            int touches = Native.tellus_sweep(this, endsM, radiusM, motionM, skinM, contact);
             Check(touches >= 0);
             return touches == 1 ? contact[0] : (Contact?)null;
         }
@@ -291,6 +291,6 @@ namespace Tellus
 
         [DllImport(Library)]
         internal static extern int tellus_sweep(
-            Planet planet, double[] endsM, double radiusM, double[] motionM, [Out] Contact[] contact);
+            Planet planet, double[] endsM, double radiusM, double[] motionM, double skinM, [Out] Contact[] contact);
     }
 }

@@ -58,7 +58,7 @@ int main(int argc, char **argv) {
         }
         for (int k = 0; k < 3; k++) motion_m[k] = directions[i][k] * -2000.0;
         struct TellusContact contact;
-        int touches = tellus_sweep(planet, ends_m, 2.0, motion_m, &contact);
+        int touches = tellus_sweep(planet, ends_m, 2.0, motion_m, 0.0, &contact);
         if (touches != 1) fail();
         printf("clouds %.4f %.4f %.4f, ", clouds[i].low, clouds[i].middle, clouds[i].veil);
         if (isnan(water_m[i])) printf("dry, ");

@@ -51,12 +51,19 @@ def load(path):
             c_bool,
             [c_void_p, numbers, c_double, c_uint32, c_int32, c_int32, POINTER(c_float), POINTER(c_float)],
         ),
-        "tellus_sweep": (c_int32, [c_void_p, numbers, c_double, numbers, POINTER(Contact)]),
+        "tellus_sweep": (c_int32, [c_void_p, numbers, c_double, numbers, c_double, POINTER(Contact)]),
     }
     for name, (result, arguments) in signatures.items():
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments
     return library
+
+
+def room_for(kind, directions):
+    """Room for an answer to each direction. The library cannot see how long a buffer is: this is where it is checked."""
+    if len(directions) % 3 != 0:
+        raise ValueError(f"directions have three numbers each, not {len(directions)} in all")
+    return (kind * (len(directions) // 3))()
 
 
 def main():
@@ -77,8 +84,8 @@ def main():
         direction = (c_double * 3)()
         check(tellus.tellus_direction(lat_deg, lon_deg, direction))
         directions[3 * index : 3 * index + 3] = direction[:]
-    samples = (Sample * len(places))()
-    check(tellus.tellus_samples(planet, directions, len(places), samples))
+    samples = room_for(Sample, directions)
+    check(tellus.tellus_samples(planet, directions, len(samples), samples))
     for sample in samples:
         print(f"{sample.height_m:.3f} {tellus.tellus_biome_name(planet, sample.biome).decode()}")
 
@@ -90,8 +97,8 @@ def main():
 
     # What a game asks at each moment.
     time_s = 5000.0
-    clouds = (Clouds * len(places))()
-    check(tellus.tellus_clouds(planet, directions, len(places), time_s, clouds))
+    clouds = room_for(Clouds, directions)
+    check(tellus.tellus_clouds(planet, directions, len(clouds), time_s, clouds))
     for index, sample in enumerate(samples):
         direction = (c_double * 3)(*directions[3 * index : 3 * index + 3])
         water_m = c_double()
@@ -99,7 +106,7 @@ def main():
         start_m = [c * (radius_m + sample.height_m + 1000.0) for c in direction]
         contact = Contact()
         ends_m, motion_m = (c_double * 6)(*start_m, *start_m), (c_double * 3)(*[c * -2000.0 for c in direction])
-        touches = tellus.tellus_sweep(planet, ends_m, 2.0, motion_m, byref(contact))
+        touches = tellus.tellus_sweep(planet, ends_m, 2.0, motion_m, 0.0, byref(contact))
         check(touches == 1)
         cover = clouds[index]
         water = "dry" if math.isnan(water_m.value) else f"water {water_m.value:.3f}"

@@ -1,5 +1,5 @@
 //! A lander flies from orbit to the ground: gravity and an autopilot in 64 bits, legs that touch the very heights that
-//! are drawn, the lander's own mesh in the planet's air, and a preset that changes while it flies.
+//! are drawn, the lander's own mesh in the planet's air, a preset that changes while it flies, and a walk on the ground.
 //!
 //! ```sh
 //! cargo run --release --example lander             # pictures in the folder for temporary files
@@ -23,7 +23,7 @@ use tellus::planet::Planet;
 use tellus::planet::watch::PresetWatch;
 use tellus::render::{DEPTH_FORMAT, Metering, OpaqueTargets, RADIANCE_FORMAT, Renderer, Scene, texture, wgpu};
 use tellus::sphere::{LatLon, Tangent};
-use tellus::terrain::{Scratch, Terrain};
+use tellus::terrain::{GroundPatch, Scratch, Terrain, Walker, WalkerBody};
 use tellus::tiles::{add_detail, build_now};
 use towers::{Tower, Towers};
 
@@ -68,19 +68,19 @@ impl Lander {
     }
 
     /// Least height of a foot above the ground.
-    fn clearance_m(&self, terrain: &Terrain, scratch: &mut Scratch) -> f64 {
+    fn clearance_m(&self, terrain: &Terrain, scratch: &mut Scratch) -> Result<f64, Failure> {
         let around = Tangent::new(self.up());
         let feet: [DVec3; FEET] = std::array::from_fn(|i| {
             let (sin, cos) = (i as f64 / FEET as f64 * std::f64::consts::TAU).sin_cos();
             self.position_m + (around.east_planet * cos + around.north_planet * sin) * FEET_RADIUS_M
         });
         let mut heights_m = [0.0; FEET];
-        terrain.heights_into(&feet, &mut heights_m, scratch);
+        terrain.heights_into(&feet, &mut heights_m, scratch)?;
         let clearances = feet
             .iter()
             .zip(heights_m)
             .map(|(foot_m, height_m)| foot_m.length() - terrain.planet().radius_m() - height_m);
-        clearances.fold(f64::MAX, f64::min)
+        Ok(clearances.fold(f64::MAX, f64::min))
     }
 
     /// One step: the autopilot kills the speed over ground and sinks ever slower.
@@ -115,7 +115,7 @@ fn fly(preset: &Path) -> Result<(), Failure> {
 
     let (mut seconds, mut reloads, mut is_changed) = (0.0, 0, false);
     loop {
-        let clearance_m = lander.clearance_m(&terrain, &mut scratch);
+        let clearance_m = lander.clearance_m(&terrain, &mut scratch)?;
         if clearance_m <= 0.0 {
             break;
         }
@@ -129,9 +129,10 @@ fn fly(preset: &Path) -> Result<(), Failure> {
         }
         match watch.poll() {
             Some(Ok(planet)) => {
-                terrain = Arc::new(Terrain::try_new(planet.into())?);
+                // What has not changed stays: of a planet with a structure that is most of the work.
+                terrain = Arc::new(Terrain::builder(planet.into()).reuse(&terrain).build()?);
                 reloads += 1;
-                let rise_m = clearance_m - lander.clearance_m(&terrain, &mut scratch);
+                let rise_m = clearance_m - lander.clearance_m(&terrain, &mut scratch)?;
                 println!("{seconds:.0} s: the preset has changed; the ground here has moved by {rise_m:+.0} m");
             }
             Some(Err(error)) => println!("{error}"),
@@ -153,10 +154,28 @@ fn fly(preset: &Path) -> Result<(), Failure> {
     if speed_m_s > SOFTEST_M_S {
         return Err("the lander broke".into());
     }
+    let walked_m = walk_around(&terrain, &lander);
+    println!("an astronaut walked {walked_m:.0} m around the lander");
     if reloads != 1 {
         return Err(format!("the preset changed once and was reloaded {reloads} times").into());
     }
     Ok(())
+}
+
+/// An astronaut walks around the lander for a minute, sixty steps a second, over whatever ground is there: how far.
+fn walk_around(terrain: &Arc<Terrain>, lander: &Lander) -> f64 {
+    let mut patch = GroundPatch::new(Arc::clone(terrain));
+    let body = WalkerBody { gravity_m_s2: GRAVITY_M_S2, ..WalkerBody::default() };
+    let start = lander.position_m + Tangent::new(lander.up()).east_planet * (2.0 * FEET_RADIUS_M);
+    let mut walker = Walker::on_ground(body, &mut patch, start);
+    let mut walked_m = 0.0;
+    for _ in 0..3600 {
+        let before_m = walker.feet_planet_m();
+        let outward = (before_m - lander.position_m).normalize_or(DVec3::X);
+        walker.step(&mut patch, lander.up().cross(outward) * 1.2, 1.0 / 60.0);
+        walked_m += walker.feet_planet_m().distance(before_m);
+    }
+    walked_m
 }
 
 /// Takes pictures of the lander.

@@ -226,7 +226,7 @@ pub unsafe extern "C" fn tellus_heights(
         // SAFETY: the caller's promise.
         let (dirs, heights_m) =
             unsafe { (directions_of(directions, count, "directions")?, output(heights_m, count, "heights_m")?) };
-        SCRATCH.with_borrow_mut(|scratch| terrain.heights_into(dirs, heights_m, scratch));
+        SCRATCH.with_borrow_mut(|scratch| terrain.heights_spaced_into(dirs, 0.0, heights_m, scratch));
         Ok(true)
     })
 }
@@ -254,7 +254,7 @@ pub unsafe extern "C" fn tellus_samples(
             const BATCH: usize = 256;
             let mut found = [crate::terrain::Sample::default(); BATCH];
             for (dirs, samples) in dirs.chunks(BATCH).zip(samples.chunks_mut(BATCH)) {
-                terrain.samples_into(dirs, Wanted::ALL, &mut found, scratch);
+                terrain.samples_spaced_into(dirs, 0.0, Wanted::ALL, &mut found, scratch);
                 for (sample, found) in samples.iter_mut().zip(&found) {
                     *sample = TellusSample::of(found);
                 }

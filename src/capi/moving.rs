@@ -166,9 +166,10 @@ pub unsafe extern "C" fn tellus_chunk(
     })
 }
 
-/// How far a capsule moves until it touches the ground: all points within `radius_m` of the line between two ends (3
-/// numbers each, planet frame, metres from the centre; a ball has both in one place). `motion_m` has 3 numbers. 1 and
-/// `contact` written if it touches, 0 if it does not, -1 if that failed. The sea does not count.
+/// How far a capsule moves until it is `skin_m` from the ground: all points within `radius_m` of the line between two
+/// ends (3 numbers each, planet frame, metres from the centre; a ball has both in one place). `motion_m` has 3 numbers.
+/// What touches may leave. 1 and `contact` written if it is stopped, 0 if it is not, -1 if that failed. The sea does
+/// not count.
 ///
 /// # Safety
 /// `planet` is NULL or a planet of this library; `ends_m` is NULL or holds 6 numbers, `motion_m` is NULL or holds 3,
@@ -179,6 +180,7 @@ pub unsafe extern "C" fn tellus_sweep(
     ends_m: *const f64,
     radius_m: f64,
     motion_m: *const f64,
+    skin_m: f64,
     contact: *mut TellusContact,
 ) -> i32 {
     answer(-1, || {
@@ -195,8 +197,11 @@ pub unsafe extern "C" fn tellus_sweep(
         if !(radius_m > 0.0 && radius_m.is_finite()) {
             return Err(format!("radius_m is {radius_m}; use more than 0"));
         }
+        if !(skin_m >= 0.0 && skin_m.is_finite()) {
+            return Err(format!("skin_m is {skin_m}; use 0 or more"));
+        }
         let capsule = Capsule { ends_planet_m, radius_m };
-        let sweep = SCRATCH.with_borrow_mut(|scratch| terrain.sweep_with(&capsule, motion_m, scratch));
+        let sweep = SCRATCH.with_borrow_mut(|scratch| terrain.sweep_with(&capsule, motion_m, skin_m, scratch));
         let Some(sweep) = sweep else { return Ok(0) };
         contact[0] = TellusContact {
             share: sweep.share,

@@ -203,7 +203,9 @@ fn chunks_and_sweeps_are_those_of_the_library() {
     let mut contact = moving::TellusContact { share: -1.0, gap_m: 0.0, point_m: [0.0; 3], normal: [0.0; 3] };
     let mut sweep = |radius_m: f64, motion_m: [f64; 3]| {
         // SAFETY: the buffers hold 6, 3 and one.
-        unsafe { moving::tellus_sweep(planet.0, ends_m.as_ptr().cast(), radius_m, motion_m.as_ptr(), &raw mut contact) }
+        unsafe {
+            moving::tellus_sweep(planet.0, ends_m.as_ptr().cast(), radius_m, motion_m.as_ptr(), 0.0, &raw mut contact)
+        }
     };
     assert_eq!(sweep(0.0, motion_m), -1);
     assert_eq!(sweep(2.0, motion_m.map(|along| -along)), 0);

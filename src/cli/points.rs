@@ -101,7 +101,7 @@ fn answers(terrain: &Terrain, moment: &Moment, places: &[(f64, f64)]) -> Vec<Str
     let tasks = places.par_chunks(TASK).map_init(Scratch::default, |scratch, places| {
         let dirs: Vec<_> = places.iter().map(|&(lat, lon)| LatLon::from_degrees(lat, lon).direction()).collect();
         let mut samples = vec![Sample::default(); dirs.len()];
-        terrain.samples_into(&dirs, Wanted::ALL, &mut samples, scratch);
+        terrain.samples_spaced_into(&dirs, 0.0, Wanted::ALL, &mut samples, scratch);
         let answer = |((&(lat, lon), &dir), sample)| {
             let mut answer = as_json(terrain, dir, sample, &terrain.layers_m(dir), moment);
             answer["lat"] = json!(lat);

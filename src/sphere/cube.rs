@@ -73,7 +73,7 @@ fn bend(w: f64) -> f64 {
 
 /// The inverse of [`bend`].
 #[inline]
-fn unbend(v: f64) -> f64 {
+pub(crate) fn unbend(v: f64) -> f64 {
     v * ((1.0 + C_SQUARED) / (1.0 + C_SQUARED * (v * v))).sqrt()
 }
 

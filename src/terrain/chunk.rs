@@ -72,7 +72,7 @@ impl ChunkGrid {
         let dirs: Vec<DVec3> =
             (0..side * side).map(|i| self.tangent.direction(along(column, i % side), along(row, i / side))).collect();
         let mut samples = vec![Sample::default(); dirs.len()];
-        terrain.samples_into(&dirs, Wanted::HEIGHT.and_normal(), &mut samples, scratch);
+        terrain.samples_spaced_into(&dirs, 0.0, Wanted::HEIGHT.and_normal(), &mut samples, scratch);
         let radius_m = terrain.planet().radius_m();
         let position = |(dir, sample): (&DVec3, &Sample)| {
             self.tangent.local(*dir * (radius_m + sample.height_m) - origin_m).as_vec3()

@@ -26,6 +26,8 @@ const TOLERANCE_M: f64 = 1e-5;
 const TOUCH_M: f64 = 1e-4;
 /// Share of the distance by which a sweep goes on.
 const SAFE: f64 = 0.7;
+/// What touches leaves by at least this share of its motion; less counts as sliding along, which stops it.
+const LEAVING: f64 = 1e-2;
 /// Most steps of a sweep. They are enough for a flight along a slope at the distance of the radius, some hundred radii.
 const MAX_STEPS: usize = 400;
 
@@ -44,10 +46,12 @@ pub struct Capsule {
 pub struct Contact {
     /// Distance between the surfaces. Negative: how far the capsule must move along the normal to be free.
     pub gap_m: f64,
-    /// The point of the ground: its height is [`Terrain::height_m`] to the bit.
+    /// The point of the ground: its height is [`Terrain::height_m`], to the bit or within the deviation.
     pub point_planet_m: DVec3,
     /// Unit vector from the ground to the axis of the capsule; of a capsule whose axis is in the ground, the way out.
     pub normal_planet: DVec3,
+    /// How far the ground that was met may lie from the evaluator's: 0 for queries of [`Terrain`].
+    pub deviation_m: f64,
 }
 
 /// What a capsule that moves meets.
@@ -72,7 +76,7 @@ impl Capsule {
         Self { ends_planet_m: self.ends_planet_m.map(|end_m| end_m + by_planet_m), radius_m: self.radius_m }
     }
 
-    fn is_valid(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         self.ends_planet_m.iter().all(|end_m| end_m.is_finite()) && self.radius_m.is_finite() && self.radius_m > 0.0
     }
 
@@ -111,24 +115,34 @@ impl Terrain {
     }
 
     /// How far a capsule moves along a motion until it touches the ground. None if it does not, and for a capsule or a
-    /// motion that is not finite. A capsule that overlaps the ground at the start touches it at 0, wherever it goes.
+    /// motion that is not finite. What touches may leave. A capsule whose axis is in the ground is stopped at 0,
+    /// wherever it goes: its contact says the way out.
     ///
     /// It stops up to a tenth of a millimetre before the ground. Near the ground the limits are those of
     /// [`Terrain::contact`] with the radius as distance; farther away it can miss a spire thinner than a sixth of its
     /// distance from it, and meets it when it is nearer.
     pub fn sweep(&self, capsule: &Capsule, motion_planet_m: DVec3) -> Option<Sweep> {
-        with_scratch(|scratch| self.sweep_with(capsule, motion_planet_m, scratch))
+        with_scratch(|scratch| self.sweep_with(capsule, motion_planet_m, 0.0, scratch))
     }
 
-    /// As [`Terrain::sweep`], with the caller's scratch.
-    pub fn sweep_with(&self, capsule: &Capsule, motion_planet_m: DVec3, scratch: &mut Scratch) -> Option<Sweep> {
+    /// As [`Terrain::sweep`], until it is a skin's width from the ground and with the caller's scratch. A skin that is
+    /// no number above 0 counts as none.
+    pub fn sweep_with(
+        &self,
+        capsule: &Capsule,
+        motion_planet_m: DVec3,
+        skin_m: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Sweep> {
         if !capsule.is_valid() || !motion_planet_m.is_finite() {
             return None;
         }
+        let skin_m = if skin_m.is_finite() { skin_m.max(0.0) } else { 0.0 };
+        let touch_m = skin_m + TOUCH_M;
         let length_m = motion_planet_m.length();
         let dir = if length_m > 0.0 { motion_planet_m / length_m } else { DVec3::ZERO };
         let mut gone_m = 0.0;
-        let mut last = None;
+        let mut last: Option<Sweep> = None;
         for _ in 0..MAX_STEPS {
             let here = capsule.moved(dir * gone_m);
             let share = if length_m > 0.0 { gone_m / length_m } else { 0.0 };
@@ -138,11 +152,22 @@ impl Terrain {
                     let around = Around::new(self, &here, 0.0, scratch);
                     let reach_m = here.radius_m.max(0.5 * around.clearance_m);
                     let contact = Around::new(self, &here, reach_m, scratch).nearest(false);
-                    if contact.gap_m <= TOUCH_M {
+                    let leaving = contact.normal_planet.dot(dir);
+                    let is_leaving = contact.gap_m > -here.radius_m && leaving > LEAVING;
+                    if contact.gap_m <= touch_m && !is_leaving {
                         return Some(Sweep { share, contact });
                     }
+                    // What leaves one side of a narrow valley may meet the other: it stops before it is nearer to it
+                    // than it was, and nearer than it may be.
+                    if let Some(last) = last.filter(|last| contact.gap_m < last.contact.gap_m.min(touch_m)) {
+                        return Some(last);
+                    }
                     last = Some(Sweep { share, contact });
-                    (SAFE * contact.gap_m.min(reach_m)).max(0.5 * TOUCH_M)
+                    if contact.gap_m > touch_m {
+                        (SAFE * (contact.gap_m - skin_m).min(reach_m)).max(0.5 * TOUCH_M)
+                    } else {
+                        (SAFE * contact.gap_m.abs()).max(TOUCH_M) / leaving
+                    }
                 }
             };
             if gone_m >= length_m {
@@ -165,7 +190,7 @@ impl Terrain {
     }
 
     /// A distance that a capsule can move whatever the direction, from the bounds of the ground; None near it.
-    fn free_m(&self, capsule: &Capsule, wanted_m: f64) -> Option<f64> {
+    pub(super) fn free_m(&self, capsule: &Capsule, wanted_m: f64) -> Option<f64> {
         let tries = std::iter::successors(Some(wanted_m * 1.001), |distance_m| Some(distance_m * 0.25));
         let far = tries.take_while(|distance_m| *distance_m > 2.0 * capsule.radius_m);
         far.take(16).find(|distance_m| self.is_farther(capsule, *distance_m))
@@ -201,7 +226,7 @@ impl<'a> Around<'a> {
         let count = if from_m == to_m { 1 } else { AXIS };
         let axis_m: Vec<DVec3> = (0..count).map(|i| from_m.lerp(to_m, i as f64 / (count - 1).max(1) as f64)).collect();
         let mut heights_m = [0.0; AXIS];
-        terrain.heights_into(&axis_m, &mut heights_m[..count], scratch);
+        terrain.heights_spaced_into(&axis_m, 0.0, &mut heights_m[..count], scratch);
         let radius_m = terrain.planet().radius_m();
         let (mut clearance_m, mut lowest_m) = (f64::INFINITY, middle_m);
         for (at_m, height_m) in axis_m.iter().zip(heights_m) {
@@ -245,7 +270,8 @@ impl<'a> Around<'a> {
         let normal_planet =
             if best.away_m > 1e-9 { out / best.away_m } else { self.terrain.sample(best.ground_m).normal_planet };
         let away_m = if is_in { -best.away_m } else { best.away_m };
-        Contact { gap_m: away_m - self.capsule.radius_m, point_planet_m: best.ground_m, normal_planet }
+        let gap_m = away_m - self.capsule.radius_m;
+        Contact { gap_m, point_planet_m: best.ground_m, normal_planet, deviation_m: 0.0 }
     }
 
     /// The point of the axis that counts for a point of the ground: the deepest one of an axis that is in the ground.
@@ -299,7 +325,7 @@ impl<'a> Around<'a> {
             .map(|[x_m, y_m]| self.tangent.planet(DVec3::new(*x_m, *y_m, self.middle_m)).normalize())
             .collect();
         let mut heights_m = vec![0.0; dirs.len()];
-        self.terrain.heights_into(&dirs, &mut heights_m, self.scratch);
+        self.terrain.heights_spaced_into(&dirs, 0.0, &mut heights_m, self.scratch);
         let radius_m = self.terrain.planet().radius_m();
         for ((dir, height_m), at_m) in dirs.iter().zip(heights_m).zip(places_m) {
             let ground_m = *dir * (radius_m + height_m);

@@ -11,8 +11,10 @@
 //! - `edits`: ground edits: strokes, stamps and splines
 //! - `evaluate`: the pipeline that makes a height from all of these, for queries and tiles
 //! - `biome`, `border`: the biome of a point; border jitter
-//! - `query`, `raycast`, `contact`, `nearest`: the queries of [`Terrain`]; `water`: water, wind and rain at points
-//! - `contours`: coasts and other lines of equal height; `chunk`: ground for physics engines
+//! - `builder`: terrains that take over what another one has
+//! - `query`, `checked`, `raycast`, `contact`, `nearest`: the queries of [`Terrain`]; `water`: water, wind and rain at points
+//! - `contours`: coasts and other lines of equal height; `chunk`: ground for physics engines; `ground`: ground that is
+//!   kept near those who move on it, and a walker
 //! - `network`: rivers from source to mouth, lakes, basins; `by_hand`: plates that are changed by hand
 //! - `effects`: what one layer does at points; `curve_inputs`: the numbers that curves bend
 //! - `kept`: the fields that a tile keeps from one edit to the next
@@ -27,7 +29,9 @@ mod approx;
 pub mod bench;
 pub(crate) mod biome;
 pub(crate) mod border;
+mod builder;
 mod by_hand;
+mod checked;
 mod chunk;
 pub(crate) mod climate;
 pub(crate) mod coarse;
@@ -38,6 +42,7 @@ pub(crate) mod edits;
 mod effects;
 pub(crate) mod evaluate;
 pub(crate) mod field;
+mod ground;
 pub(crate) mod height;
 mod jet;
 pub(crate) mod kept;
@@ -62,11 +67,14 @@ use crate::world::weather::Weather;
 use crate::world::{Inputs, KeepGoing, MapWork, World};
 #[cfg(feature = "render")]
 use crate::world::{MapPicture, MapView};
+pub use builder::TerrainBuilder;
+pub use checked::InvalidQuery;
 pub use chunk::{Chunk, ChunkGrid};
 pub use contact::{Capsule, Contact, Sweep};
 pub use contours::Contour;
 pub use curve_inputs::{CurveInput, CurveInputs};
 pub use effects::LayerEffect;
+pub use ground::{GroundPatch, Walker, WalkerBody};
 pub use height::curve_at;
 pub use raycast::RayLimits;
 
@@ -121,14 +129,13 @@ impl Terrain {
     /// A planet that was changed to something that no preset may say: all that is wrong with it. One that was loaded
     /// and not changed since is valid.
     pub fn try_new(planet: Arc<Planet>) -> Result<Self, InvalidPlanet> {
-        Self::try_new_with(planet, &CellFields::default(), &mut MapWork::default())
+        Self::builder(planet).build()
     }
 
     /// As [`Terrain::try_new`], with world maps from a store where it has them. Those that it lacks are solved, and
     /// written to it.
     ///
-    /// `go_on` is asked again and again, from several threads, with the share of the work that is done (0 to 1). If it
-    /// answers no, the answer is None.
+    /// `go_on` is asked as [`TerrainBuilder::build_while`] asks it.
     ///
     /// # Errors
     /// As [`Terrain::try_new`].
@@ -137,18 +144,11 @@ impl Terrain {
         store: Option<Arc<MapStore>>,
         go_on: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<Option<Self>, InvalidPlanet> {
-        let (fields, mut work) = (CellFields::default(), MapWork::default());
-        let begun = std::time::Instant::now();
-        let mut terrain = Self::try_draft(planet, &World { store, ..World::default() })?;
-        while !terrain.has_final_maps() {
-            let done = terrain.map_progress();
-            match terrain.with_next_map(&fields, &|| go_on(done), &mut work) {
-                Some(next) => terrain = next,
-                None => return Ok(None),
-            }
+        let mut builder = Self::builder(planet);
+        if let Some(store) = store {
+            builder = builder.store(store);
         }
-        log::debug!("{}: ready in {:.2} s", terrain.planet().name, begun.elapsed().as_secs_f64());
-        Ok(Some(terrain))
+        builder.build_while(go_on)
     }
 
     /// Share of the world maps that is solved, 0 to 1.
@@ -162,11 +162,7 @@ impl Terrain {
         fields: &CellFields,
         work: &mut MapWork,
     ) -> Result<Self, InvalidPlanet> {
-        let mut terrain = Self::try_draft(planet, &World::default())?;
-        while let Some(next) = terrain.with_next_map(fields, &|| true, work) {
-            terrain = next;
-        }
-        Ok(terrain)
+        Self::builder(planet).build_with(fields, work)
     }
 
     /// Compiles a planet with the world maps of an earlier revision, which serve until its own are solved.

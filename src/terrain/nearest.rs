@@ -48,7 +48,7 @@ impl Terrain {
     /// `go_on` is asked on each circle with the share of the distance that is searched (0 to 1).
     ///
     /// # Errors
-    /// A distance or a spacing that is not a number above 0, or more than 16 million points.
+    /// A place without a direction, a distance or a spacing that is not a number above 0, or more than 16 million points.
     pub fn nearest(
         &self,
         search: &Search,
@@ -56,6 +56,11 @@ impl Terrain {
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<Option<Place>, String> {
         let Search { around_planet, within_m, spacing_m, wanted } = *search;
+        if !around_planet.is_finite() || around_planet == DVec3::ZERO {
+            return Err(format!(
+                "around_planet is {around_planet:?}, which is no direction; use a vector of any length"
+            ));
+        }
         let radius_m = self.planet().radius_m();
         // Nothing is farther than the other side.
         let within_m = within_m.min(PI * radius_m);
@@ -199,6 +204,10 @@ mod tests {
         assert_eq!(asked.into_inner(), 3);
         for (within_m, spacing_m) in [(0.0, 1.0), (1.0, 0.0), (f64::NAN, 1.0), (1.0, f64::NAN), (1e5, 1.0)] {
             let search = Search { within_m, spacing_m, ..search(DVec3::X) };
+            assert!(terrain.nearest(&search, &far, &|_| true).is_err(), "{search:?}");
+        }
+        for around_planet in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {
+            let search = Search { around_planet, ..search(DVec3::X) };
             assert!(terrain.nearest(&search, &far, &|_| true).is_err(), "{search:?}");
         }
     }

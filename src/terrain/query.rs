@@ -1,7 +1,7 @@
 //! Queries: what the ground is under directions from the planet's centre.
 //!
 //! A direction may have any length. A direction without one (zero, infinite or NaN) counts as the north pole, so that
-//! every query has a finite answer. All queries of a point agree to the bit: alone or in a batch, on any thread.
+//! every query has a finite answer; those of `checked` refuse it. All queries of a point agree to the bit: alone or in a batch, on any thread.
 
 use super::Terrain;
 use super::biome::Site;
@@ -162,7 +162,9 @@ impl Terrain {
     /// bit. Between vertices the mesh is straight and stays within the screen-space error.
     pub fn height_m(&self, dir_planet: DVec3) -> f64 {
         let mut height_m = 0.0;
-        with_scratch(|scratch| self.heights_into(&[dir_planet], std::slice::from_mut(&mut height_m), scratch));
+        with_scratch(|scratch| {
+            self.heights_spaced_into(&[dir_planet], 0.0, std::slice::from_mut(&mut height_m), scratch)
+        });
         height_m
     }
 
@@ -209,12 +211,6 @@ impl Terrain {
         heights_m
     }
 
-    /// [`Terrain::height_m`] of many directions, on the calling thread and without allocating. `heights_m` has one
-    /// number for each direction; where the lengths differ, the shorter counts.
-    pub fn heights_into(&self, dirs_planet: &[DVec3], heights_m: &mut [f64], scratch: &mut Scratch) {
-        self.heights_spaced_into(dirs_planet, 0.0, heights_m, scratch);
-    }
-
     /// As [`Terrain::heights_into`], without valleys of a structure that points `spacing_rad` apart would not show.
     pub(crate) fn heights_spaced_into(
         &self,
@@ -235,19 +231,13 @@ impl Terrain {
     pub fn sample(&self, dir_planet: DVec3) -> Sample {
         let mut sample = Sample::default();
         let samples = std::slice::from_mut(&mut sample);
-        with_scratch(|scratch| self.samples_into(&[dir_planet], Wanted::ALL, samples, scratch));
+        with_scratch(|scratch| self.samples_spaced_into(&[dir_planet], 0.0, Wanted::ALL, samples, scratch));
         sample
     }
 
     /// The surface under many directions, on all cores.
     pub fn samples(&self, dirs_planet: &[DVec3], wanted: Wanted) -> Vec<Sample> {
         self.samples_detailed(dirs_planet, wanted, Detail::All)
-    }
-
-    /// As [`Terrain::samples`], on the calling thread and without allocating. `samples` has one for each direction;
-    /// where the lengths differ, the shorter counts.
-    pub fn samples_into(&self, dirs_planet: &[DVec3], wanted: Wanted, samples: &mut [Sample], scratch: &mut Scratch) {
-        self.samples_spaced_into(dirs_planet, 0.0, wanted, samples, scratch);
     }
 
     /// As [`Terrain::samples_into`], without valleys and rivers of a structure that points `spacing_rad` apart would

@@ -76,8 +76,8 @@ fn queries_allocate_nothing_after_the_first() {
                 terrain.raycast(eye_m, dir.any_orthonormal_vector() - dir);
                 terrain.raycast_with(eye_m, -dir, &mut scratch);
             }
-            terrain.heights_into(&dirs, &mut heights_m, &mut scratch);
-            terrain.samples_into(&dirs, Wanted::ALL, &mut samples, &mut scratch);
+            terrain.heights_into(&dirs, &mut heights_m, &mut scratch).unwrap();
+            terrain.samples_into(&dirs, Wanted::ALL, &mut samples, &mut scratch).unwrap();
         };
         // Every layer is met by one of the directions, so that all memory has grown.
         ask(&dirs);
@@ -95,7 +95,7 @@ fn queries_of_rivers_allocate_nothing_where_they_have_been() {
     let mut samples = vec![Sample::default(); dirs.len()];
     let mut scratch = Scratch::default();
     let mut ask = || {
-        terrain.samples_into(&dirs, Wanted::ALL, &mut samples, &mut scratch);
+        terrain.samples_into(&dirs, Wanted::ALL, &mut samples, &mut scratch).unwrap();
         for dir in &dirs[..20] {
             terrain.sample(*dir);
         }

@@ -12,6 +12,7 @@
 //! - `sculpt`, `images`, `stamp`, `erosion`, `paint`, `masks`, `structural`: ground edits
 //! - `system`: orbits and resonances
 //! - `rivers`: water on the whole course of rivers
+//! - `physics`, `ground`, `walker`: contacts, sweeps, and those who walk
 //! - `water`: rivers, lakes and weather of a structure
 //! - `spread`: points far apart among rivers
 //! - `atmosphere`: the CPU reference of the air
@@ -23,6 +24,7 @@ mod beside;
 mod erosion;
 mod extremes;
 mod fuzz;
+mod ground;
 mod header;
 mod heightmap;
 mod idle;
@@ -47,6 +49,7 @@ mod structural;
 mod structure;
 mod system;
 mod terrain;
+mod walker;
 mod water;
 
 #[path = "../support"]

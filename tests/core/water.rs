@@ -175,6 +175,6 @@ fn without_a_structure_there_is_the_sea_and_the_rain_of_the_climate() {
         assert_eq!((sample.river, sample.lake, sample.basin, sample.plate), (None, None, None, None));
     }
     let rain_mm: Vec<f64> = samples.iter().map(|sample| sample.rain_mm).collect();
-    terrain.samples_into(&dirs, Wanted::HEIGHT.and_water(), &mut samples, &mut Scratch::default());
+    terrain.samples_into(&dirs, Wanted::HEIGHT.and_water(), &mut samples, &mut Scratch::default()).unwrap();
     assert!(samples.iter().map(|sample| sample.rain_mm).eq(rain_mm));
 }

@@ -3,6 +3,7 @@
 //! - [`noise`]: million points a second, against fastnoise-lite
 //! - [`edits`]: time from an edit to the finished tiles
 //! - [`queries`]: time of heights, samples, rays, contacts and sweeps
+//! - [`collision`]: time of contacts, sweeps and walkers on a patch of ground
 //! - [`bake`]: million pixels a second of a height map
 //! - [`sculpt`]: time and memory of thousands of ground edits
 //! - [`structure`]: time to solve plates, weather and rivers, and points a second with rivers
@@ -14,6 +15,7 @@
 mod air;
 mod bake;
 mod clouds;
+mod collision;
 mod edits;
 mod frames;
 mod noise;
@@ -51,6 +53,8 @@ enum Part {
     Rebuild,
     /// Heights, samples, rays, contacts and sweeps
     Queries,
+    /// Contacts, sweeps and walkers on a patch of ground
+    Collision,
     /// Height maps of the globe, in files
     Bake,
     /// A height map of 16k x 8k pixels, once: a minute or more, and 256 MB of disk. Not among all parts
@@ -109,6 +113,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if wants(Part::Queries) {
         report["queries"] = json!([queries::measure(first)?, queries::measure(&Arc::new(shipped::default_planet()))?]);
+    }
+    if wants(Part::Collision) {
+        let default = Arc::new(shipped::default_planet());
+        report["collision"] = json!([collision::measure(first)?, collision::measure(&default)?]);
     }
     if wants(Part::Bake) {
         report["bake"] = bake::measure(first)?;

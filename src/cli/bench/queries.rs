@@ -54,7 +54,7 @@ pub(super) fn measure(planet: &Arc<Planet>) -> Result<Value, String> {
     let moving = moving(&terrain, &near[..MOVING], &mut scratch);
 
     let mut heights_m = vec![0.0; BATCH];
-    let height_one_mps = mps(|| terrain.heights_into(&batch, black_box(&mut heights_m), &mut scratch));
+    let height_one_mps = mps(|| terrain.heights_spaced_into(&batch, 0.0, black_box(&mut heights_m), &mut scratch));
     let height_all_mps = mps(|| drop(black_box(terrain.heights_m(&batch))));
     let mut samples: Vec<Sample> = Vec::new();
     let samples_batch_mps = mps(|| samples = black_box(terrain.samples(&batch, Wanted::ALL)));
@@ -111,19 +111,19 @@ fn moving(terrain: &Terrain, dirs: &[DVec3], scratch: &mut Scratch) -> [(&'stati
         (
             "ball_step_us",
             us(&near, &|of, up, scratch| {
-                black_box(terrain.sweep_with(&ball(of), down(up, STEP_M), scratch));
+                black_box(terrain.sweep_with(&ball(of), down(up, STEP_M), 0.0, scratch));
             }),
         ),
         (
             "capsule_step_us",
             us(&near, &|of, up, scratch| {
-                black_box(terrain.sweep_with(of, down(up, STEP_M), scratch));
+                black_box(terrain.sweep_with(of, down(up, STEP_M), 0.0, scratch));
             }),
         ),
         (
             "capsule_fall_us",
             us(&high, &|of, up, scratch| {
-                black_box(terrain.sweep_with(of, up * -FALL_M, scratch));
+                black_box(terrain.sweep_with(of, up * -FALL_M, 0.0, scratch));
             }),
         ),
     ]
@@ -149,7 +149,7 @@ fn rays(terrain: &Terrain, dirs: &[DVec3]) -> Vec<(DVec3, DVec3)> {
 }
 
 /// Microseconds of one query: the mean over all of a run, the median of the runs.
-fn each_us<T>(questions: &[T], mut ask: impl FnMut(&T)) -> Option<f64> {
+pub(super) fn each_us<T>(questions: &[T], mut ask: impl FnMut(&T)) -> Option<f64> {
     let times_ms = repeat(|| questions.iter().for_each(&mut ask));
     median(&times_ms).map(|ms| ms * 1000.0 / questions.len() as f64)
 }
