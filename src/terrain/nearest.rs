@@ -48,7 +48,8 @@ impl Terrain {
     /// `go_on` is asked on each circle with the share of the distance that is searched (0 to 1).
     ///
     /// # Errors
-    /// A place without a direction, a distance or a spacing that is not a number above 0, or more than 16 million points.
+    /// A place without a direction, a distance or a spacing that is not a number above 0, or more than 16 million
+    /// points.
     pub fn nearest(
         &self,
         search: &Search,

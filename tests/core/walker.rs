@@ -126,7 +126,7 @@ fn gravity_is_the_planets() {
     assert!((aurel - 9.81).abs() < 0.01 && (WalkerBody::on(&moon).gravity_m_s2 - 2.675).abs() < 0.01);
 }
 
-/// What a walker does in some seconds at a place: it walks for most of them, each in a direction of its own, then stands.
+/// What a walker does in some seconds at a place: it walks, each in a direction of its own, then stands.
 fn walks(terrain: &Arc<Terrain>, place: usize, dir: DVec3, secs: f64) {
     let name = &terrain.planet().name;
     let mut patch = GroundPatch::new(terrain.clone());

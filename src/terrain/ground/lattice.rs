@@ -1,4 +1,4 @@
-//! The lattice of the ground: on each face of the cube the points of a level, in blocks of [`QUADS`] by [`QUADS`] cells.
+//! The lattice of the ground: on each face of the cube the points of a level, in blocks of 16 by 16 cells.
 //!
 //! It is fixed to the planet: a block has the same vertices, to the bit, whichever patch asks and whatever it asked
 //! before. Neighbours share their borders, over the edges of faces too. The borders of cells lie on great circles, as
