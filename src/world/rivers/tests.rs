@@ -44,7 +44,7 @@ fn land(count: usize) -> Vec<DVec3> {
 /// The block of a level at a direction.
 fn block(dir: DVec3, level: usize, cache: &mut Cache) -> Arc<Block> {
     at(dir, level + 1, cache);
-    cache.current[level].as_ref().map(|(_, block)| block.clone()).unwrap_or_default()
+    cache.current[level].as_ref().map(|(_, block)| block.clone()).unwrap()
 }
 
 fn step(dir: DVec3, along: DVec3, by: f64) -> DVec3 {
