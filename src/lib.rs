@@ -39,6 +39,7 @@
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `noise_tile`: the noise of patterns on the ground and of clouds, as the renderer samples it
+//! - `made`: what made a file, and whether it is whole: sets of files that are made part by part
 //! - `bake` (feature `bake`): maps and meshes of a planet in files
 //! - `capi` (feature `capi`): the C interface
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
@@ -58,6 +59,8 @@ pub mod atmosphere;
 pub mod clouds;
 pub mod giant;
 pub mod lod;
+#[cfg(any(feature = "bake", feature = "render"))]
+mod made;
 #[cfg(any(feature = "bake", feature = "render"))]
 mod noise_tile;
 pub mod planet;

@@ -247,16 +247,20 @@ fn without_mark(text: &str) -> &str {
 
 /// The bytes of a file: all of them, or `most` and one more of a longer file.
 pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    let file = match open(path)? {
-        Opened::File(file) => file,
-        Opened::Folder => return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder; name a file")),
-        Opened::Special => {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "is a device or a pipe, not a file; name a file"));
-        }
-    };
     let mut bytes = Vec::new();
-    file.take(most + 1).read_to_end(&mut bytes)?;
+    open_file(path)?.take(most + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// Opens a file for reading, and nothing else.
+pub(crate) fn open_file(path: &Path) -> io::Result<File> {
+    match open(path)? {
+        Opened::File(file) => Ok(file),
+        Opened::Folder => Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder; name a file")),
+        Opened::Special => {
+            Err(io::Error::new(io::ErrorKind::InvalidInput, "is a device or a pipe, not a file; name a file"))
+        }
+    }
 }
 
 /// The version of a text. It is found without parsing the rest, which a newer version may write differently.
@@ -333,9 +337,25 @@ pub(crate) fn write_atomically_with(
     beside: Option<&Path>,
     write: &mut dyn FnMut(&mut File) -> io::Result<()>,
 ) -> Result<(), String> {
+    stage(path, beside, write)?.commit()
+}
+
+/// A file that is complete and on the disk, but not in its place yet. Files of a set are staged first and then
+/// committed together: a disk that is full changes none of them. Dropped, it is removed.
+pub(crate) struct Staged {
+    unfinished: tempfile::TempPath,
+    target: PathBuf,
+    folder: PathBuf,
+}
+
+/// The first part of [`write_atomically_with`]: all of it but the rename.
+pub(crate) fn stage(
+    path: &Path,
+    beside: Option<&Path>,
+    write: &mut dyn FnMut(&mut File) -> io::Result<()>,
+) -> Result<Staged, String> {
     let Target { path: target, folder, permissions } = Target::checked(path)?;
     let unfinished = beside.unwrap_or(&folder);
-    let failed = |what: &str, error: &io::Error| format!("{what}: {error}; the old file is as it was");
     sweep(unfinished);
     let mut builder = tempfile::Builder::new();
     builder.prefix(UNFINISHED).suffix(UNFINISHED_END);
@@ -350,13 +370,31 @@ pub(crate) fn write_atomically_with(
         let _ = file.as_file().set_permissions(permissions);
     }
     file.as_file().sync_all().map_err(|e| failed("cannot write", &e))?;
-    file.persist(&target).map_err(|e| failed("cannot replace the file", &e.error))?;
-    // The rename must reach the disk, too. Not every system can open folders, and the file is complete already.
-    #[cfg(unix)]
-    if let Ok(folder) = File::open(folder) {
-        let _ = folder.sync_all();
+    Ok(Staged { unfinished: file.into_temp_path(), target, folder })
+}
+
+impl Staged {
+    /// Where its bytes are until it is committed.
+    #[cfg(any(feature = "bake", feature = "render"))]
+    pub(crate) fn unfinished(&self) -> &Path {
+        &self.unfinished
     }
-    Ok(())
+
+    /// Moves it to its place.
+    pub(crate) fn commit(self) -> Result<(), String> {
+        let Self { unfinished, target, folder } = self;
+        unfinished.persist(target).map_err(|e| failed("cannot replace the file", &e.error))?;
+        // The rename must reach the disk, too. Not every system can open folders, and the file is complete already.
+        #[cfg(unix)]
+        if let Ok(folder) = File::open(folder) {
+            let _ = folder.sync_all();
+        }
+        Ok(())
+    }
+}
+
+fn failed(what: &str, error: &io::Error) -> String {
+    format!("{what}: {error}; the old file is as it was")
 }
 
 /// Where a link leads whose target is missing; the path itself if it is no link.

@@ -32,6 +32,12 @@ impl Key {
     pub(crate) fn bits(self) -> u128 {
         self.0
     }
+
+    /// The key of a number that was written down.
+    #[cfg(any(feature = "bake", feature = "render"))]
+    pub(crate) fn from_bits(bits: u128) -> Self {
+        Self(bits)
+    }
 }
 
 /// FNV-1a with 64 bits (Fowler, Noll, Vo 1991): equal bytes give equal names in every build, unlike the standard

@@ -7,10 +7,13 @@
 //! - [`cube`]: faces and the mapping, with its inverse
 //! - [`node`]: addresses of quadtree nodes and their neighbours across all face edges
 //! - [`geo`]: latitude, longitude, local north and east, evenly spread directions
+//! - `curve`: the order in which far points are best asked
 //! - [`tangent`]: the local frame of a place
 //! - [`raster`]: grids of numbers over the sphere, sampled smoothly
 
 pub mod cube;
+#[cfg(feature = "bake")]
+pub(crate) mod curve;
 pub mod geo;
 pub mod node;
 pub mod raster;

@@ -17,7 +17,7 @@ use std::time::SystemTime;
 
 /// Version of the solvers and of the format. Increase it with every change after which a solver answers differently;
 /// a test of the solvers' answers says when.
-pub(super) const VERSION: u32 = 3;
+pub(crate) const VERSION: u32 = 3;
 
 const MAGIC: [u8; 8] = *b"TELLUSWM";
 const HEADER: usize = MAGIC.len() + 4 + 16 + 8;
