@@ -12,7 +12,8 @@
 //! - `maps`: what can be baked; `projection`: where pixels lie; `pieces`: landscapes and quadtrees; `format`: kinds of
 //!   file, and steps of their numbers
 //! - `occlusion`: ambient occlusion; `lights`: lights of settlements
-//! - `strips`: computes and keeps strips; `rows`: reads a map from them
+//! - `strips`: computes and keeps strips; `rows`: reads a map from them; `expected`: what computing them takes
+//! - `output`: the files of the maps, written together, and whether they are there
 //! - `png`, `openexr`, `geotiff`, `ktx2`, `raw`: encoders; `sidecar`: the JSON beside a map
 //! - `mesh`: meshes with textures
 //! - `edits`: ground edits as a height picture
@@ -20,6 +21,7 @@
 
 mod edits;
 mod error;
+mod expected;
 mod format;
 mod geotiff;
 mod ktx2;
@@ -28,6 +30,7 @@ mod maps;
 pub mod mesh;
 mod occlusion;
 mod openexr;
+mod output;
 mod pieces;
 mod png;
 mod preview;
@@ -42,6 +45,7 @@ mod tests;
 
 pub use edits::{BakedEdits, Deviation, EditBake};
 pub use error::BakeError;
+pub use expected::Expected;
 pub use format::Format;
 #[cfg(feature = "editor")]
 pub(crate) use format::srgb_byte;
@@ -50,25 +54,22 @@ pub use pieces::{Landscape, Quadtree};
 pub use preview::Preview;
 pub use projection::{Projection, Region};
 
-use crate::planet::file::{Target, write_atomically_with};
-use crate::planet::{Key, VERSION};
+use crate::made::identity;
+use crate::planet::Key;
+use crate::planet::file::Target;
 use crate::terrain::Terrain;
-use format::{Shape, Steps};
-use geotiff::{Ground, Place};
+use output::BakedFile;
 use progress::Progress;
 use projection::{Grid, longest_side_km};
 use rayon::prelude::*;
-use rows::Rows;
-use std::fs::{self, File};
-use std::io::Write as _;
-use std::ops::Range;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use strips::{Evaluator, Strips};
+use strips::{DETAILED_BYTES, DETAILED_PIXELS, Evaluator, STRIP_PIXELS, Strip, Strips};
 
 /// Largest width of a picture, in pixels.
 pub const MAX_SIZE: u32 = 65_536;
-/// Distance between pixels from which few of them share a river block.
+/// Distance between vertices from which few of them share a river block.
 const SLOW_M: f64 = 1000.0;
 /// Work of computing a strip, in that of encoding it for one map.
 const STRIP_WORK: u64 = 8;
@@ -100,7 +101,7 @@ pub struct Bake {
 /// How much of a structure is in a map. It makes no difference to a planet without one.
 ///
 /// Each river of a structure is made when a point near it asks. Where pixels are farther apart than valleys, hardly two
-/// of them share a valley, and all detail takes milliseconds a pixel: hours for a map of the globe.
+/// of them share a valley, and all detail takes a thousand times as long: see [`Bake::expected`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Detail {
@@ -155,6 +156,8 @@ pub struct Shard {
 pub enum Outcome {
     /// The maps are written: these files, and a `.json` beside each.
     Done(Vec<PathBuf>),
+    /// Nothing was to be done: the same had made these files already, and they are whole.
+    Kept(Vec<PathBuf>),
     /// The strips of a shard are done. How many strips of the other shards are not there yet.
     Shard {
         /// Strips that are missing.
@@ -165,7 +168,7 @@ pub enum Outcome {
 }
 
 impl Bake {
-    /// A bake of maps at time zero.
+    /// A bake of maps at time zero, with the detail of their pixels.
     pub fn new(terrain: Arc<Terrain>, maps: Vec<Map>, projection: Projection, size: u32, format: Format) -> Self {
         Self {
             terrain,
@@ -173,14 +176,16 @@ impl Bake {
             projection,
             size,
             format,
-            detail: Detail::All,
+            detail: Detail::Pixel,
             time_secs: 0.0,
             heights_m: None,
             shard: None,
         }
     }
 
-    /// Writes the maps to a folder, which is made if there is none. Strips that an earlier run left there are used.
+    /// Writes the maps to a folder, which is made if there is none. Strips that an earlier run left there are used if
+    /// they are whole. All maps take their places together, once all are complete. If the same bake has made them
+    /// already, nothing is done, by a shard neither.
     ///
     /// `go_on` is asked again and again, from several threads, with the share of the work that is done (0 to 1). If it
     /// answers no, the bake stops; the same bake goes on from there.
@@ -190,32 +195,45 @@ impl Bake {
     pub fn run(&self, folder: &Path, go_on: &(dyn Fn(f64) -> bool + Sync)) -> Result<Outcome, BakeError> {
         profiling::scope!("bake");
         self.check().map_err(BakeError::Asked)?;
+        let (strips, files) = (self.strips(folder), self.files(folder));
+        let paths = || files.iter().map(|file| file.path.clone()).collect();
+        if self.is_finished(folder, &strips) {
+            return Ok(Outcome::Kept(paths()));
+        }
+        match self.make(folder, &strips, &files, go_on) {
+            // Another process was faster, and has removed the strips.
+            Err(_) if self.is_finished(folder, &strips) => Ok(Outcome::Kept(paths())),
+            made => made,
+        }
+    }
+
+    fn make(
+        &self,
+        folder: &Path,
+        strips: &Strips,
+        files: &[BakedFile],
+        go_on: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Result<Outcome, BakeError> {
         make_folder(folder)?;
-        let planet = self.terrain.planet();
-        let key = self.key();
-        let grid = Grid::new(&self.projection, self.size, planet.radius_km);
-        let strip_folder = folder.join(format!("bake-{:016x}.strips", key.bits() >> 64));
-        let strips = Strips::new(grid, self.maps.clone(), key, strip_folder);
-        let files = self.files(&strips.grid, folder);
-        for BakedFile { path, about, .. } in &files {
+        for BakedFile { path, about, .. } in files {
             if let (Projection::Quadtree(_), Some(folder)) = (&self.projection, path.parent()) {
                 make_folder(folder)?;
             }
-            for path in [Some(path), about.as_ref()].into_iter().flatten() {
+            for path in [path, about] {
                 Target::checked(path).map_err(|error| BakeError::file(path, error))?;
             }
         }
         make_folder(&strips.folder)?;
-        let missing: Vec<_> =
-            (0..strips.count()).map(|number| strips.strip(number)).filter(|strip| !strips.has(strip)).collect();
-        let (mine, others): (Vec<_>, Vec<_>) =
-            missing.into_iter().partition(|strip| self.shard.is_none_or(|shard| shard.has(strip.number)));
+        let is_mine = |number: &u32| self.shard.is_none_or(|shard| shard.has(*number));
+        let (mine, others): (Vec<u32>, Vec<u32>) = (0..strips.count()).partition(is_mine);
+        let missing = |strip: Strip| Some(strip).filter(|strip| !strips.has(strip));
+        let mine: Vec<_> = mine.into_par_iter().filter_map(|number| missing(strips.strip(number))).collect();
         log::info!(
             "{}: {} of {} strips of {} are to be computed",
             folder.display(),
             mine.len(),
             strips.count(),
-            planet.name
+            self.terrain.planet().name
         );
         let encoding = if self.shard.is_some() { 0 } else { u64::from(strips.count()) * self.maps.len() as u64 };
         let progress = Progress::new(mine.len() as u64 * STRIP_WORK + encoding, go_on);
@@ -229,32 +247,36 @@ impl Bake {
             return Ok(Outcome::Stopped);
         }
         if self.shard.is_some() {
-            return Ok(Outcome::Shard { missing: others.len() as u32 });
+            let missing = others.into_iter().filter(|number| !strips.seems_there(&strips.strip(*number)));
+            return Ok(Outcome::Shard { missing: missing.count() as u32 });
         }
-        let ranges = self.ranges(&strips)?;
-        let written = files.par_iter().try_for_each(|file| self.encode(&strips, file, ranges[file.map], &progress));
-        if progress.is_stopped() {
+        if !self.write(strips, files, &self.ranges(strips)?, &progress)? {
             return Ok(Outcome::Stopped);
         }
-        written?;
         strips::remove(&strips.folder)?;
-        Ok(Outcome::Done(files.into_iter().map(|file| file.path).collect()))
+        Ok(Outcome::Done(files.iter().map(|file| file.path.clone()).collect()))
+    }
+
+    /// What it is made from, in a folder beside the maps.
+    fn strips(&self, folder: &Path) -> Strips {
+        let planet = self.terrain.planet();
+        let grid = Grid::new(&self.projection, self.size, planet.radius_km);
+        let key = self.key();
+        let folder = folder.join(format!("bake-{:016x}.strips", key.bits() >> 64));
+        let channels: usize = self.maps.iter().map(|map| map.channels()).sum();
+        let pixels = match self.detail {
+            Detail::All if planet.structure.is_some() => {
+                let most = DETAILED_BYTES / (size_of::<f32>() * channels.max(1)) as u32;
+                most.clamp(STRIP_PIXELS, DETAILED_PIXELS)
+            }
+            _ => STRIP_PIXELS,
+        };
+        Strips::new(grid, self.maps.clone(), key, folder, pixels)
     }
 
     /// The longest side of a region of a planet, km: its corners are still nearer than the far side.
     pub fn longest_side_km(radius_km: f64) -> f64 {
         longest_side_km(radius_km)
-    }
-
-    /// Whether the bake takes milliseconds a pixel; see [`Detail`].
-    pub fn is_slow(&self) -> bool {
-        let planet = self.terrain.planet();
-        let pixel_rad = match self.projection {
-            // The coarsest level is as wide as the planet.
-            Projection::Quadtree(_) => Quadtree::pixel_rad(0, self.size),
-            projection => projection.spacing_rad(self.size, planet.radius_km),
-        };
-        planet.structure.is_some() && self.detail == Detail::All && pixel_rad * planet.radius_m() > SLOW_M
     }
 
     /// What is wrong with what is asked for.
@@ -308,64 +330,8 @@ impl Bake {
     /// Key of the strips: of everything that they depend on.
     fn key(&self) -> Key {
         let time_secs = Some(self.time_secs).filter(|_| self.maps.iter().any(|map| map.is_of_clouds()));
-        let program = (env!("CARGO_PKG_VERSION"), VERSION);
         let planet = Key::of_planet(self.terrain.planet());
-        Key::of(&(program, planet, self.projection, self.size, self.detail, &self.maps, time_secs))
-    }
-
-    /// The files of all maps.
-    fn files(&self, grid: &Grid, folder: &Path) -> Vec<BakedFile> {
-        let pictures = grid.pictures();
-        let mut files = Vec::new();
-        for (index, map) in self.maps.iter().enumerate() {
-            let (name, ending) = (map.name(), self.format.extension());
-            let mut push = |pictures: Range<usize>, piece: &str| {
-                let path = folder.join(format!("{name}{piece}.{ending}"));
-                // All tiles of a quadtree have one description.
-                let about = match self.projection {
-                    Projection::Quadtree(_) => (pictures.start == 0).then(|| folder.join(format!("{name}.json"))),
-                    _ => Some(path.with_extension("json")),
-                };
-                files.push(BakedFile { path, about, pictures, map: index });
-            };
-            if self.format == Format::Ktx2 && self.projection == Projection::Cube {
-                push(0..pictures, "");
-                continue;
-            }
-            for picture in 0..pictures {
-                let piece = match &self.projection {
-                    Projection::Landscape(landscape) => {
-                        let [column, row] = landscape.place(picture);
-                        format!("_x{column}_y{row}")
-                    }
-                    Projection::Quadtree(tree) => format!("/{}", tree.name(picture)),
-                    _ => grid.face(picture).map_or(String::new(), |face| format!("_{face}")),
-                };
-                push(picture..picture + 1, &piece);
-            }
-        }
-        files
-    }
-
-    /// How a picture lies on the sphere.
-    fn ground(&self, picture: usize) -> Ground {
-        let plane = |region: &Region, corner_m, pixel_m| Ground::Plane {
-            lat_deg: region.lat_deg,
-            lon_deg: region.lon_deg,
-            corner_m,
-            pixel_m,
-        };
-        match &self.projection {
-            Projection::Equirect => Ground::Globe,
-            Projection::Cube | Projection::Quadtree(_) => Ground::Elsewhere,
-            Projection::Region(region) => {
-                let side_m = region.side_km * 1000.0;
-                plane(region, [-side_m / 2.0, side_m / 2.0], side_m / f64::from(self.size))
-            }
-            Projection::Landscape(landscape) => {
-                plane(&landscape.region, landscape.corner_m(picture, self.size), landscape.pixel_m(self.size))
-            }
-        }
+        identity(planet, &(self.projection, self.size, self.detail, &self.maps, time_secs))
     }
 
     /// Least and greatest value of each map.
@@ -387,50 +353,6 @@ impl Bake {
         }
         Ok(ranges)
     }
-
-    /// Writes a map and the JSON beside it.
-    fn encode(
-        &self,
-        strips: &Strips,
-        file: &BakedFile,
-        found: (f64, f64),
-        progress: &Progress<'_>,
-    ) -> Result<(), BakeError> {
-        profiling::scope!("encode a map");
-        let BakedFile { path, about, pictures, map: index } = file;
-        let map = self.maps[*index];
-        let asked = self.heights_m.filter(|_| map == Map::Height);
-        let steps = Steps::new(self.format, map, found, asked);
-        let (width, height) = (strips.grid.width, strips.grid.height);
-        let shape = Shape { width, height, channels: map.channels(), format: self.format, steps };
-        let place = Place { ground: self.ground(pictures.start), radius_m: self.terrain.planet().radius_m() };
-        let mut rows: Vec<_> = pictures.clone().map(|picture| Rows::new(strips, picture, *index, progress)).collect();
-        let write = &mut |out: &mut File| match (self.format, &mut rows[..]) {
-            (Format::Ktx2, faces) => ktx2::write(out, map, &shape, faces),
-            (Format::Png8 | Format::Png16, [rows]) => png::write(out, &shape, rows),
-            (Format::Exr | Format::Exr16, [rows]) => openexr::write(out, &shape, rows),
-            (Format::Tiff | Format::Tiff16, [rows]) => geotiff::write(out, &shape, &place, rows),
-            (_, rows) => rows.iter_mut().try_for_each(|rows| raw::write(&mut *out, &shape, rows)),
-        };
-        write_atomically_with(path, Some(&strips.folder), write).map_err(|error| BakeError::file(path, error))?;
-        let Some(beside) = about else { return Ok(()) };
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let faces: Vec<_> = pictures.clone().filter_map(|picture| strips.grid.face(picture)).collect();
-        let about = sidecar::about(self, map, &name, (&faces, pictures.start), &shape);
-        let write = &mut |file: &mut File| writeln!(file, "{about:#}");
-        write_atomically_with(beside, Some(&strips.folder), write).map_err(|error| BakeError::file(beside, error))
-    }
-}
-
-/// A file that is to be written.
-struct BakedFile {
-    path: PathBuf,
-    /// The JSON that describes it, if it is not another file's.
-    about: Option<PathBuf>,
-    /// Its pictures: one, or the six faces of a cube.
-    pictures: Range<usize>,
-    /// Index of the map.
-    map: usize,
 }
 
 impl Shard {

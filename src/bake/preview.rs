@@ -3,7 +3,7 @@
 use super::format::{Steps, srgb_byte};
 use super::maps::{Range, mean_color};
 use super::projection::Grid;
-use super::strips::{Evaluator, Strips};
+use super::strips::{Evaluator, STRIP_PIXELS, Strips};
 use super::{Bake, Detail, Format, Map};
 use crate::planet::Key;
 use crate::terrain::Scratch;
@@ -46,7 +46,7 @@ impl Bake {
         let small = Bake { maps: vec![map], projection, size: across, detail: Detail::Pixel, ..self.clone() };
         let grid = Grid::new(&small.projection, across, radius_km);
         let evaluator = Evaluator::new(&small);
-        let strips = Strips::new(grid, vec![map], Key::of(&()), PathBuf::new());
+        let strips = Strips::new(grid, vec![map], Key::of(&()), PathBuf::new(), STRIP_PIXELS);
         let parts: Option<Vec<Vec<f32>>> = (0..strips.count())
             .into_par_iter()
             .map(|number| {

@@ -6,7 +6,8 @@ use super::geotiff::Ground;
 use super::maps::{Map, Range, mean_color};
 use super::occlusion::DISTANCES;
 use super::projection::Projection;
-use crate::planet::{Key, Planet, VERSION};
+use crate::made::VERSIONS;
+use crate::planet::{Key, Planet};
 use crate::sphere::Face;
 use serde_json::{Value, json};
 
@@ -17,10 +18,32 @@ pub(super) fn of_planet(planet: &Planet) -> Value {
         "radius_m": planet.radius_m(),
         "sea_level_m": planet.sea_level_m(),
         "preset_hash": format!("{:032x}", Key::of_planet(planet).bits()),
-        // The version of presets pins the algorithm of the terrain, too.
-        "algorithm_version": VERSION,
+        "algorithm_version": VERSIONS.algorithm,
+        "solver_version": VERSIONS.solvers,
         "made_by": MADE_BY,
     })
+}
+
+/// Name of the checksum that a text has of itself, and its value while that is not known.
+const OWN_SUM: &str = "json_crc32";
+const NO_SUM: &str = "00000000";
+
+/// The text of a description, with a CRC-32 of itself: of the text with zeros in its place.
+pub(super) fn sealed(mut about: Value) -> String {
+    about[OWN_SUM] = json!(NO_SUM);
+    let text = format!("{about:#}\n");
+    let sum = format!("{:08x}", crc32fast::hash(text.as_bytes()));
+    let field = |sum: &str| format!("\"{OWN_SUM}\": \"{sum}\"");
+    text.replacen(&field(NO_SUM), &field(&sum), 1)
+}
+
+/// The description in a text, if it is whole.
+pub(super) fn unsealed(text: &str) -> Option<Value> {
+    let about: Value = serde_json::from_str(text).ok()?;
+    let sum = about.get(OWN_SUM)?.as_str()?;
+    let field = |sum: &str| format!("\"{OWN_SUM}\": \"{sum}\"");
+    let bare = text.replacen(&field(sum), &field(NO_SUM), 1);
+    (sum == format!("{:08x}", crc32fast::hash(bare.as_bytes()))).then_some(about)
 }
 
 /// The program that made a file.

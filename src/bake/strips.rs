@@ -2,10 +2,15 @@
 //!
 //! Strips are what a bake resumes from and what its shards write. Their size depends on the size of the picture alone,
 //! and their values on nothing but the planet, so that whoever computes a strip writes the same bytes. Memory is at
-//! most that of one strip on each core, [`STRIP_PIXELS`] x 4 bytes for each channel of each map.
+//! most that of one strip on each core, [`STRIP_PIXELS`] x 4 bytes for each channel of each map, or with all detail of
+//! a structure [`DETAILED_BYTES`].
+//!
+//! Within a strip, points of a planet with a structure are asked along a curve that keeps neighbours together, whatever
+//! the projection.
 //!
 //! Format, little-endian: `MAGIC`, the key of the bake (16 bytes), the number of the strip (4 bytes); for each map its
-//! least and greatest value; for each map its values row by row, channels together. All values are floats of 32 bits.
+//! least and greatest value and the CRC-32 of its values; the CRC-32 of all that; for each map its values row by row,
+//! channels together. All values are floats of 32 bits. A strip that is damaged counts as missing.
 
 use super::error::BakeError;
 use super::lights::Lights;
@@ -15,22 +20,30 @@ use super::projection::Grid;
 use super::{Bake, Detail};
 use crate::clouds::{CloudCover, CloudField};
 use crate::planet::Key;
-use crate::planet::file::write_atomically_with;
+use crate::planet::file::{open_file, write_atomically_with};
+use crate::sphere::curve;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
 use std::fs::File;
-use std::io::{self, BufWriter, Read as _, Write as _};
+use std::io::{self, BufWriter, Read as _, Seek as _, SeekFrom, Write as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Most pixels of a strip, unless a single row has more.
-const STRIP_PIXELS: u32 = 1 << 17;
+pub(super) const STRIP_PIXELS: u32 = 1 << 17;
+/// The same with all detail of a structure, where a strip should be higher than the squares for which rivers are made:
+/// most pixels, and most bytes.
+pub(super) const DETAILED_PIXELS: u32 = 1 << 21;
+pub(super) const DETAILED_BYTES: u32 = 1 << 26;
 /// Least number of strips of a bake, if it has as many rows: small bakes use all cores, too.
 const LEAST_STRIPS: u32 = 32;
-/// Pixels of one query. They form a block rather than a row: a thread then builds the river blocks around them once.
+/// Pixels of one query.
 const TASK: usize = 1024;
-const MAGIC: [u8; 8] = *b"TELLUSB1";
+const MAGIC: [u8; 8] = *b"TELLUSB2";
 const HEAD: usize = MAGIC.len() + 16 + 4;
+/// Length of what the head says of a map, and of a checksum.
+const PLANE: usize = 12;
+const SUM: usize = 4;
 const FLOAT: usize = size_of::<f32>();
 
 /// The strips of a bake.
@@ -51,6 +64,14 @@ pub(super) struct Strip {
     pub(super) rows: Range<u32>,
 }
 
+/// What the head of a strip says of the values of a map.
+#[derive(Clone, Copy)]
+struct Plane {
+    least: f32,
+    greatest: f32,
+    crc32: u32,
+}
+
 /// What strips are computed from.
 pub(super) struct Evaluator<'a> {
     terrain: &'a Terrain,
@@ -69,9 +90,10 @@ struct Extras {
 }
 
 impl Strips {
-    pub(super) fn new(grid: Grid, maps: Vec<Map>, key: Key, folder: PathBuf) -> Self {
+    /// `most_pixels`: of a strip, unless a single row has more.
+    pub(super) fn new(grid: Grid, maps: Vec<Map>, key: Key, folder: PathBuf, most_pixels: u32) -> Self {
         let least = LEAST_STRIPS.div_ceil(grid.pictures() as u32);
-        let rows = (STRIP_PIXELS / grid.width).min(grid.height.div_ceil(least)).max(1);
+        let rows = (most_pixels / grid.width).min(grid.height.div_ceil(least)).max(1);
         let of_picture = grid.height.div_ceil(rows);
         Self { grid, maps, key, folder, rows, of_picture }
     }
@@ -96,38 +118,69 @@ impl Strips {
         self.folder.join(format!("{number:05}.strip"))
     }
 
-    /// Whether a strip is there. Strips are written whole or not at all.
+    /// Whether a strip is there whole.
     pub(super) fn has(&self, strip: &Strip) -> bool {
-        let length = self.plane(strip, self.maps.len()).start;
-        let Ok(mut file) = File::open(self.path(strip.number)) else { return false };
-        let mut head = [0; HEAD];
-        file.metadata().is_ok_and(|about| about.len() == length)
-            && file.read_exact(&mut head).is_ok()
-            && head == self.head(strip.number)
+        (0..self.maps.len()).all(|map| self.read(strip, map).is_ok())
     }
 
-    fn head(&self, number: u32) -> [u8; HEAD] {
-        let mut head = [0; HEAD];
-        let fields = [&MAGIC[..], &self.key.bits().to_le_bytes(), &number.to_le_bytes()].concat();
-        head.copy_from_slice(&fields);
+    /// Whether a strip is there: its values are not read.
+    pub(super) fn seems_there(&self, strip: &Strip) -> bool {
+        self.open(strip).is_ok()
+    }
+
+    fn head(&self, number: u32, planes: &[Plane]) -> Vec<u8> {
+        let mut head = [&MAGIC[..], &self.key.bits().to_le_bytes(), &number.to_le_bytes()].concat();
+        for Plane { least, greatest, crc32 } in planes {
+            head.extend([least.to_le_bytes(), greatest.to_le_bytes(), crc32.to_le_bytes()].concat());
+        }
+        let sum = crc32fast::hash(&head);
+        head.extend(sum.to_le_bytes());
         head
     }
 
+    /// Opens a strip whose head and length are right.
+    fn open(&self, strip: &Strip) -> io::Result<(File, Vec<Plane>)> {
+        let mut file = open_file(&self.path(strip.number))?;
+        let mut head = vec![0; HEAD + self.maps.len() * PLANE + SUM];
+        file.read_exact(&mut head)?;
+        let plane = |[least, greatest, crc32]: &[[u8; FLOAT]; 3]| Plane {
+            least: f32::from_le_bytes(*least),
+            greatest: f32::from_le_bytes(*greatest),
+            crc32: u32::from_le_bytes(*crc32),
+        };
+        let planes: Vec<_> = head[HEAD..].as_chunks().0.as_chunks().0.iter().map(plane).collect();
+        let length = self.place(strip, self.maps.len()).start;
+        if head != self.head(strip.number, &planes) || file.metadata()?.len() != length {
+            return Err(damaged());
+        }
+        Ok((file, planes))
+    }
+
+    /// The values of a map in a strip, as bytes.
+    pub(super) fn read(&self, strip: &Strip, map: usize) -> io::Result<Vec<u8>> {
+        let (mut file, planes) = self.open(strip)?;
+        let place = self.place(strip, map);
+        let mut bytes = vec![0; (place.end - place.start) as usize];
+        file.seek(SeekFrom::Start(place.start))?;
+        file.read_exact(&mut bytes)?;
+        if planes.get(map).is_none_or(|plane| crc32fast::hash(&bytes) != plane.crc32) {
+            return Err(damaged());
+        }
+        Ok(bytes)
+    }
+
     /// Where the values of a map are in the file of a strip, in bytes.
-    pub(super) fn plane(&self, strip: &Strip, map: usize) -> Range<u64> {
+    fn place(&self, strip: &Strip, map: usize) -> Range<u64> {
         let pixels = u64::from(self.grid.width) * u64::from(strip.rows.end - strip.rows.start);
         let bytes = |map: &Map| pixels * (map.channels() * FLOAT) as u64;
-        let start = (HEAD + self.maps.len() * 2 * FLOAT) as u64 + self.maps.iter().take(map).map(bytes).sum::<u64>();
+        let start = (HEAD + self.maps.len() * PLANE + SUM) as u64 + self.maps.iter().take(map).map(bytes).sum::<u64>();
         start..start + self.maps.get(map).map_or(0, bytes)
     }
 
     /// Least and greatest value of each map in a strip that is there.
     pub(super) fn ranges(&self, strip: &Strip) -> Result<Vec<(f32, f32)>, BakeError> {
-        let path = self.path(strip.number);
-        let mut bytes = vec![0; HEAD + self.maps.len() * 2 * FLOAT];
-        File::open(&path).and_then(|mut file| file.read_exact(&mut bytes)).map_err(|e| BakeError::file(&path, e))?;
-        let floats: Vec<f32> = floats(&bytes[HEAD..]).collect();
-        Ok(floats.as_chunks().0.iter().map(|&[min, max]| (min, max)).collect())
+        let (_, planes) = self.open(strip).map_err(|error| BakeError::file(&self.path(strip.number), error))?;
+        Ok(planes.iter().map(|plane| (plane.least, plane.greatest)).collect())
     }
 
     /// Computes a strip and writes its file.
@@ -138,18 +191,21 @@ impl Strips {
         scratch: &mut Scratch,
     ) -> Result<(), BakeError> {
         profiling::scope!("bake a strip");
-        let planes = self.values(strip, evaluator, scratch);
+        let values = self.values(strip, evaluator, scratch);
+        let bytes: Vec<Vec<u8>> =
+            values.iter().map(|values| values.iter().flat_map(|v| v.to_le_bytes()).collect()).collect();
+        let plane = |(values, bytes): (&Vec<f32>, &Vec<u8>)| Plane {
+            least: values.iter().copied().fold(f32::INFINITY, f32::min),
+            greatest: values.iter().copied().fold(f32::NEG_INFINITY, f32::max),
+            crc32: crc32fast::hash(bytes),
+        };
+        let planes: Vec<_> = values.iter().zip(&bytes).map(plane).collect();
+        drop(values);
         let path = self.path(strip.number);
         let write = &mut |file: &mut File| {
             let mut out = BufWriter::new(file);
-            out.write_all(&self.head(strip.number))?;
-            for plane in &planes {
-                let (min, max) =
-                    plane.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)));
-                out.write_all(&min.to_le_bytes())?;
-                out.write_all(&max.to_le_bytes())?;
-            }
-            planes.iter().flatten().try_for_each(|value| out.write_all(&value.to_le_bytes()))?;
+            out.write_all(&self.head(strip.number, &planes))?;
+            bytes.iter().try_for_each(|bytes| out.write_all(bytes))?;
             out.flush()
         };
         write_atomically_with(&path, None, write).map_err(|error| BakeError::file(&path, error))
@@ -160,24 +216,26 @@ impl Strips {
     pub(super) fn values(&self, strip: &Strip, evaluator: &Evaluator<'_>, scratch: &mut Scratch) -> Vec<Vec<f32>> {
         let (width, high) = (self.grid.width as usize, strip.rows.len());
         let mut planes: Vec<Vec<f32>> = self.maps.iter().map(|map| vec![0.0; width * high * map.channels()]).collect();
-        let wide = (TASK / high).max(1);
-        let mut dirs = Vec::with_capacity(TASK.max(high));
+        let direction = |pixel: usize| {
+            self.grid.direction(strip.picture, (pixel % width) as u32, strip.rows.start + (pixel / width) as u32)
+        };
+        let mut order: Vec<usize> = (0..width * high).collect();
+        if evaluator.terrain.river_spacing_rad().is_some() {
+            order.sort_by_cached_key(|pixel| curve::place(direction(*pixel)));
+        }
+        let mut dirs = Vec::with_capacity(TASK);
         let mut samples = Vec::new();
-        for first in (0..width).step_by(wide) {
-            let columns = first..(first + wide).min(width);
+        for pixels in order.chunks(TASK) {
             dirs.clear();
-            for row in strip.rows.clone() {
-                dirs.extend(columns.clone().map(|x| self.grid.direction(strip.picture, x as u32, row)));
-            }
+            dirs.extend(pixels.iter().map(|pixel| direction(*pixel)));
             let pixel_rad = self.grid.spacing_rad(strip.picture);
             let extras = evaluator.find(&self.maps, &dirs, pixel_rad, &mut samples, scratch);
             let planet = evaluator.terrain.planet();
-            for (i, (&dir, sample)) in dirs.iter().zip(&samples).enumerate() {
+            for (i, ((&dir, sample), pixel)) in dirs.iter().zip(&samples).zip(pixels).enumerate() {
                 let clouds = extras.clouds.get(i).copied().unwrap_or_default();
                 let (open, lights) = (extras.open.get(i).copied(), extras.lights.get(i).copied());
                 let (open, lights) = (open.unwrap_or(1.0), lights.unwrap_or_default());
                 let site = Site { planet, dir, sample, clouds, open, lights };
-                let pixel = i / columns.len() * width + columns.start + i % columns.len();
                 for (map, plane) in self.maps.iter().zip(&mut planes) {
                     let (channels, values): (_, [f32; MOST_CHANNELS]) = (map.channels(), map.values(&site));
                     plane[pixel * channels..][..channels].copy_from_slice(&values[..channels]);
@@ -248,6 +306,10 @@ pub(super) fn floats(bytes: &[u8]) -> impl Iterator<Item = f32> {
     bytes.as_chunks().0.iter().map(|&bytes| f32::from_le_bytes(bytes))
 }
 
+fn damaged() -> io::Error {
+    io::Error::other("is damaged; the same command makes it anew")
+}
+
 /// Removes the strips of a bake that is done.
 pub(super) fn remove(folder: &Path) -> Result<(), BakeError> {
     match std::fs::remove_dir_all(folder) {
@@ -265,7 +327,8 @@ mod tests {
 
     fn strips(projection: Projection, size: u32) -> Strips {
         let maps = vec![Map::Height, Map::Normal, Map::Biome];
-        Strips::new(Grid::new(&projection, size, 1000.0), maps, Key::of(&size), PathBuf::from("strips"))
+        let grid = Grid::new(&projection, size, 1000.0);
+        Strips::new(grid, maps, Key::of(&size), PathBuf::from("strips"), STRIP_PIXELS)
     }
 
     #[test]

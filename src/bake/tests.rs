@@ -67,6 +67,12 @@ fn damaged_strips_are_computed_again() {
     let mut other = fs::read(strip(5)).unwrap();
     other[9] ^= 1;
     fs::write(strip(5), other).unwrap();
+    // Values: in the middle of the strip, and in what its head says of them.
+    for (number, at) in [(6, 200), (7, 30), (8, 38)] {
+        let mut damaged = fs::read(strip(number)).unwrap();
+        damaged[at] ^= 0x10;
+        fs::write(strip(number), damaged).unwrap();
+    }
     bake.shard = None;
     assert!(matches!(bake.run(folder.path(), &|_| true).unwrap(), Outcome::Done(_)));
     assert!(files(folder.path()) == whole);
@@ -195,4 +201,101 @@ fn a_quadtree_has_all_its_tiles_with_aprons_and_many_strips_do_not_fill_the_stac
     // Neighbours: the apron of one is the border of the other.
     let (left, right) = (tile("4/pos_x_3_4.r16"), tile("4/pos_x_4_4.r16"));
     assert!((1..9).all(|row| left[row * 10 + 9] == right[row * 10 + 1]));
+}
+
+#[test]
+fn what_is_done_is_not_done_again_unless_it_is_damaged_or_another_bake() {
+    let quadtree = Projection::Quadtree(Quadtree { levels: 1, apron: 1 });
+    for (projection, format) in
+        [(Projection::Equirect, Format::Png16), (Projection::Cube, Format::Ktx2), (quadtree, Format::R16)]
+    {
+        let mut bake = bake(&[Map::Height, Map::Slope], projection, 32, format);
+        let folder = tempfile::tempdir().unwrap();
+        let run = |bake: &Bake| bake.run(folder.path(), &|_| true).unwrap();
+        let Outcome::Done(made) = run(&bake) else { panic!("it was not done") };
+        let contents = || -> Vec<_> { made.iter().map(|path| fs::read(path).unwrap()).collect() };
+        let whole = contents();
+        assert_eq!(run(&bake), Outcome::Kept(made.clone()));
+        for path in [
+            &made[0],
+            &made[made.len() - 1],
+            &folder.path().join(if projection == Projection::Cube { "slope.json" } else { "height.json" }),
+        ] {
+            let mut damaged = fs::read(path).unwrap();
+            let middle = damaged.len() / 2;
+            damaged[middle] ^= 1;
+            fs::write(path, &damaged).unwrap();
+            assert_eq!(run(&bake), Outcome::Done(made.clone()), "{}", path.display());
+            assert!(contents() == whole);
+        }
+        // A late shard has nothing to do, however the maps were encoded, and leaves nothing.
+        let count = || fs::read_dir(folder.path()).unwrap().count();
+        let before = count();
+        bake.shard = Some(Shard { number: 2, count: 3 });
+        assert_eq!(run(&bake), Outcome::Kept(made.clone()));
+        bake.format = Format::Exr;
+        assert!(matches!(run(&bake), Outcome::Kept(_)));
+        assert_eq!(count(), before);
+        // Another bake has.
+        (bake.shard, bake.format, bake.heights_m) = (None, format, Some([-3000.0, 3000.0]));
+        assert!(matches!(run(&bake), Outcome::Done(_)));
+        bake.size = 64;
+        assert!(matches!(run(&bake), Outcome::Done(_)));
+    }
+}
+
+#[test]
+fn no_map_is_replaced_before_all_are_complete() {
+    let bake = bake(&[Map::Height, Map::Normal], Projection::Equirect, 64, Format::Png16);
+    let folder = tempfile::tempdir().unwrap();
+    assert!(matches!(bake.run(folder.path(), &|_| true).unwrap(), Outcome::Done(_)));
+    let before = files(folder.path());
+    // Stops at each of the last steps, while files are encoded.
+    let larger = Bake { size: 128, ..bake };
+    let steps = AtomicU32::new(0);
+    let elsewhere = tempfile::tempdir().unwrap();
+    larger.run(elsewhere.path(), &|_| steps.fetch_add(1, Ordering::Relaxed) < u32::MAX).unwrap();
+    let all = steps.load(Ordering::Relaxed);
+    let mut most = all / 2;
+    loop {
+        let asked = AtomicU32::new(0);
+        let outcome = larger.run(folder.path(), &|_| asked.fetch_add(1, Ordering::Relaxed) < most).unwrap();
+        let mut found = files_of(folder.path());
+        if outcome != Outcome::Stopped {
+            assert!(found == files_of(elsewhere.path()));
+            break;
+        }
+        found.retain(|name, _| !name.ends_with(".strips"));
+        assert!(found == before);
+        most += 1;
+        assert!(most <= all);
+    }
+}
+
+/// As [`files`], without folders.
+fn files_of(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap()).filter(|entry| entry.path().is_file());
+    entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
+}
+
+#[test]
+fn what_all_detail_takes_is_found_before() {
+    let text = r#"(version: 3, name: "Rills", structure: (grids: 1), water: (level_m: 0))"#;
+    let planet = Planet::from_text("rills.ron", text).unwrap();
+    let terrain = Arc::new(Terrain::try_new(planet.into()).unwrap());
+    let mut rivers = Bake::new(terrain, vec![Map::Height, Map::Normal], Projection::Equirect, 32, Format::Png16);
+    let folder = tempfile::tempdir().unwrap();
+    assert!(rivers.expected(folder.path()).is_none(), "the detail of a pixel");
+    rivers.detail = Detail::All;
+    let expected = rivers.expected(folder.path()).unwrap();
+    assert_eq!((expected.pixels, expected.strip_bytes), (512, 512 * 16));
+    assert!(expected.secs > 0.0 && folder.path().read_dir().unwrap().count() == 0);
+    rivers.shard = Some(Shard { number: 1, count: 2 });
+    rivers.run(folder.path(), &|_| true).unwrap();
+    rivers.shard = None;
+    assert_eq!(rivers.expected(folder.path()).unwrap().pixels, 256);
+    rivers.run(folder.path(), &|_| true).unwrap();
+    assert!(rivers.expected(folder.path()).is_none(), "nothing is left to do");
+    let plain = bake(&[Map::Height], Projection::Equirect, 32, Format::Png16);
+    assert!(Bake { detail: Detail::All, ..plain }.expected(folder.path()).is_none(), "a planet without a structure");
 }

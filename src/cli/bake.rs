@@ -1,20 +1,19 @@
 //! `tellus bake`: maps of a planet in files.
 
-use super::area::{DetailArgs, tell_slow};
+use super::work::{WorkArgs, in_words, told};
 use super::{Failure, args, load, maps, tell};
-use crate::bake::{Bake, Format, Landscape, MAX_SIZE, Map, Outcome, Projection, Quadtree, Region, Shard};
+use crate::bake::{Bake, Detail, Format, Landscape, MAX_SIZE, Map, Outcome, Projection, Quadtree, Region, Shard};
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
-use std::io::IsTerminal as _;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::time::{Duration, Instant};
 
 /// Bake maps of a planet: heights, normals, climate, biomes, water, clouds
 #[derive(clap::Args)]
-#[command(after_help = "The same command goes on where it was interrupted. Strips of the maps are kept in the folder \
-    until all are there. With --shard several processes or machines each make a part of them; the command without \
-    --shard then joins them. Copy the folders of machines with disks of their own together first.")]
+#[command(
+    after_help = "The same command goes on where it was interrupted, and does nothing once all is done. Strips of \
+    the maps are kept in the folder until all are there; damaged ones are made anew. With --shard several processes or machines each make a part of them; the command without \
+    --shard then joins them. Copy the folders of machines with disks of their own together first."
+)]
 pub(super) struct Args {
     /// The preset
     #[arg(value_name = "FILE.ron")]
@@ -89,8 +88,16 @@ pub(super) struct Args {
         required_if_eq_any([("projection", "region"), ("projection", "landscape")])
     )]
     km: Option<f64>,
-    #[command(flatten)]
-    detail: DetailArgs,
+    /// pixel: without valleys and rivers of a structure that are too narrow for the pixels, as the planet is drawn from
+    /// afar. all: what `tellus sample` answers; where pixels are farther apart than valleys it takes a thousand times
+    /// as long, which is said before
+    #[arg(
+        long,
+        value_name = "DETAIL",
+        default_value = "pixel",
+        value_parser = PossibleValuesParser::new(Detail::ALL.map(Detail::name)).try_map(|name| Detail::named(&name).ok_or(name))
+    )]
+    detail: Detail,
     /// Heights in metres that whole numbers run between [default: the lowest and the highest of the map]
     #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = args::heights)]
     range: Option<[f64; 2]>,
@@ -100,9 +107,12 @@ pub(super) struct Args {
     /// Make only the part I of N of the strips, such as 2/8
     #[arg(long, value_name = "I/N", value_parser = args::shard)]
     shard: Option<(u32, u32)>,
+    #[command(flatten)]
+    work: WorkArgs,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    args.work.begin()?;
     let planet = Arc::new(load(&args.file)?);
     let projection = projection(args)?;
     let usual = match projection {
@@ -112,14 +122,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     let terrain = Arc::new(maps::terrain(planet)?);
     let mut bake = Bake::new(terrain, args.what.clone(), projection, args.size.unwrap_or(usual), args.format);
-    bake.detail = args.detail.detail;
+    bake.detail = args.detail;
     bake.time_secs = args.time;
     bake.heights_m = args.range;
     bake.shard = args.shard.map(|(number, count)| Shard { number, count });
-    if bake.is_slow() {
-        tell_slow();
+    if let Some(expected) = bake.expected(&args.output).filter(|expected| expected.secs > WORTH_A_WORD_SECS) {
+        let (pixels, time) = (expected.pixels, in_words(expected.secs));
+        let (threads, megabytes) = (rayon::current_num_threads(), expected.strip_bytes.div_ceil(1_000_000));
+        tell(&format!(
+            "note: all detail of {pixels} pixels takes about {time} on {threads} threads, and {megabytes} MB of disk for \
+             strips; --detail pixel leaves out what is narrower than pixels"
+        ));
     }
-    match bake.run(&args.output, &told()).map_err(|error| error.to_string())? {
+    match bake.run(&args.output, &told("baked")).map_err(|error| error.to_string())? {
+        Outcome::Kept(_) => tell("the maps are there already, whole, and made by this bake: nothing was done"),
         Outcome::Shard { missing: 0 } => tell("all strips are there; the same command without --shard joins them"),
         Outcome::Shard { missing } => {
             tell(&format!("this shard is done; {missing} strips of others are not there yet"));
@@ -128,6 +144,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     Ok(())
 }
+
+/// Time from which a bake tells what it will take.
+const WORTH_A_WORD_SECS: f64 = 10.0;
 
 /// Width of a picture, unless another one is asked for.
 const SIZE: u32 = 2048;
@@ -158,24 +177,3 @@ fn projection(args: &Args) -> Result<Projection, Failure> {
         _ => Projection::Equirect,
     })
 }
-
-/// Tells a person at a terminal how much of a bake is done, if it takes long.
-pub(super) fn told() -> impl Fn(f64) -> bool + Sync {
-    told_of("baked")
-}
-
-/// The same of other work: `done` is what has become of it.
-pub(super) fn told_of(what: &'static str) -> impl Fn(f64) -> bool + Sync {
-    let (start, last) = (Instant::now(), AtomicU32::new(0));
-    let is_read = std::io::stderr().is_terminal();
-    move |done| {
-        let percent = (done * 100.0) as u32;
-        if is_read && start.elapsed() > PATIENCE && last.fetch_max(percent, Ordering::Relaxed) < percent {
-            eprint!("\r{what}: {percent}%{}", if percent < 100 { "" } else { "\n" });
-        }
-        true
-    }
-}
-
-/// Time after which progress is told.
-const PATIENCE: Duration = Duration::from_secs(2);

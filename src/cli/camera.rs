@@ -8,10 +8,8 @@ use crate::render::{DebugView, Lens, Metering, Photo, Post, Tone};
 use crate::terrain::Terrain;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
-use std::io::IsTerminal as _;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 /// Size, lens, exposure and quality.
 #[derive(clap::Args)]
@@ -185,21 +183,10 @@ impl ValueEnum for DebugView {
     }
 }
 
-/// Tells a person at a terminal how much of a picture is drawn, if it takes long.
+/// Tells how much of a picture is drawn, if it takes long.
 pub(super) fn told() -> impl FnMut(f64) -> bool {
-    let (start, mut last) = (Instant::now(), None);
-    move |done| {
-        let percent = (done * 100.0) as u32;
-        if start.elapsed() > PATIENCE && last != Some(percent) && std::io::stderr().is_terminal() {
-            eprint!("\rdrawn: {percent}%{}", if done < 1.0 { "" } else { "\n" });
-            last = Some(percent);
-        }
-        true
-    }
+    super::work::told("drawn")
 }
-
-/// Time after which progress is told.
-const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Height of the sensor that focal lengths refer to: that of 35 mm film.
 const SENSOR_MM: f64 = 24.0;

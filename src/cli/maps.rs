@@ -1,6 +1,6 @@
 //! `tellus maps`: the world maps of presets, solved ahead; and the folder in which this program keeps its own.
 
-use super::bake::told_of;
+use super::work::told as told_of;
 use super::{Failure, load, tell};
 use crate::terrain::{MapStore, Terrain};
 use std::path::PathBuf;

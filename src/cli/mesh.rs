@@ -1,7 +1,7 @@
 //! `tellus mesh`: a planet or a region as a mesh in a file.
 
 use super::area::{DetailArgs, RegionArgs, tell_slow};
-use super::bake::told;
+use super::work::{WorkArgs, told};
 use super::{Failure, args, load, maps};
 use crate::bake::mesh::{Area, MeshBake, MeshFormat, MeshWater};
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
@@ -55,9 +55,12 @@ pub(super) struct Args {
     quantize: bool,
     #[command(flatten)]
     detail: DetailArgs,
+    #[command(flatten)]
+    work: WorkArgs,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    args.work.begin()?;
     let Some(format) = MeshFormat::of(&args.output) else {
         let path = args.output.display();
         return Err(format!("{path}: the ending names no kind of mesh; use .glb or .obj").into());
@@ -79,6 +82,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if mesh.is_slow(&planet) {
         tell_slow();
     }
-    mesh.run(&maps::terrain(planet)?, &args.output, &told()).map_err(|error| error.to_string())?;
+    mesh.run(&maps::terrain(planet)?, &args.output, &told("baked")).map_err(|error| error.to_string())?;
     Ok(())
 }

@@ -5,6 +5,7 @@
 //!   `system`, `new`, `bench`: the subcommands
 //! - `geojson`: features and lines for `rivers` and `coasts`
 //! - `points`: many points for `sample`
+//! - `work`: threads, and progress of long work
 //! - `headless`: a GPU without a window
 //! - `logging`: what is logged, and the log file of the editor
 //! - `camera`: what a photographer sets, for `render` and `film`
@@ -33,6 +34,7 @@ mod sample;
 mod sky;
 mod system;
 mod tiles;
+mod work;
 
 use crate::planet::Planet;
 use crate::planet::picture::is_contained;

@@ -1,8 +1,9 @@
 //! `tellus tiles`: a planet as 3D Tiles.
 
 use super::area::{DetailArgs, RegionArgs, tell_slow};
-use super::bake::told;
-use super::{Failure, load, maps};
+use super::work::{WorkArgs, told};
+use super::{Failure, load, maps, tell};
+use crate::bake::Outcome;
 use crate::bake::mesh::{MeshWater, Tileset};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,7 +13,8 @@ use std::sync::Arc;
 #[command(
     after_help = "Tiles are in the planet frame, metres: Z to the north pole, X to 0°N 0°E. Level N has 2^N squares along \
     each side of the six faces. With a region, levels beyond 2 are \
-    there alone. The same command goes on where it was interrupted."
+    there alone. The same command goes on where it was interrupted, makes damaged tiles anew, and does nothing once all \
+    is done."
 )]
 pub(super) struct Args {
     /// The preset
@@ -45,9 +47,12 @@ pub(super) struct Args {
     region: RegionArgs,
     #[command(flatten)]
     detail: DetailArgs,
+    #[command(flatten)]
+    work: WorkArgs,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    args.work.begin()?;
     let planet = Arc::new(load(&args.file)?);
     let tileset = Tileset {
         region: args.region.region(),
@@ -63,6 +68,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if tileset.is_slow(&planet) {
         tell_slow();
     }
-    tileset.run(&maps::terrain(planet)?, &args.output, &told()).map_err(|error| error.to_string())?;
+    let outcome = tileset.run(&maps::terrain(planet)?, &args.output, &told("baked"));
+    if let Outcome::Kept(_) = outcome.map_err(|error| error.to_string())? {
+        tell("the tiles are there already, whole, and made by this bake: nothing was done");
+    }
     Ok(())
 }

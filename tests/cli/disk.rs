@@ -66,11 +66,10 @@ fn check(broken: &Broken, in_namespace: bool) {
     }
 }
 
-/// A tile has its place only once it is complete, and so have the files beside an OBJ. What is not complete ends with
-/// `.tmp`.
+/// A tile has its place only once it is complete; of other sets nothing is in its place before all is complete. What is
+/// not complete ends with `.tmp`.
 fn is_whole_tile(command: &str, file: &str) -> bool {
-    let is_beside = file.ends_with(".png") || file.ends_with(".mtl");
-    (command.starts_with("tiles ") && file.ends_with(".glb")) || (command.contains(".obj") && is_beside)
+    command.starts_with("tiles ") && file.ends_with(".glb")
 }
 
 /// Whether a disk can be made for one command.

@@ -3,6 +3,7 @@
 //! - `bake`: maps against `tellus sample`; `decode`: readers of their files; `baked_edits`: ground edits as a picture
 //! - `commands`: answers, messages, exit status
 //! - `disk`: disks that are full or read-only
+//! - `sets`: sets of files: damaged, finished, incomplete; threads and progress
 //! - `readback`: every map, format and projection
 //! - `rivers`: rivers as GeoJSON, many points
 //! - `mesh`: meshes against `tellus sample`
@@ -27,6 +28,7 @@ mod mesh;
 mod readback;
 mod readme;
 mod rivers;
+mod sets;
 mod system;
 
 #[path = "../support/dice.rs"]

@@ -1,9 +1,9 @@
 //! What a tile of a tileset tells of itself, in its file: a bake that goes on needs it of tiles that are there.
 
 use super::patch::Patch;
+use crate::planet::file::open_file;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
@@ -41,7 +41,7 @@ impl Measures {
 
     /// The measures in a file; None if it is no tile.
     pub(super) fn read(path: &Path) -> Option<Self> {
-        let mut file = File::open(path).ok()?;
+        let mut file = open_file(path).ok()?;
         let mut head = [0; 20];
         file.read_exact(&mut head).ok()?;
         let length = head.starts_with(b"glTF").then(|| u32::from_le_bytes([head[12], head[13], head[14], head[15]]))?;

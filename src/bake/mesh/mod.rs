@@ -246,7 +246,9 @@ impl MeshBake {
         profiling::scope!("bake a mesh");
         let planet = terrain.planet();
         has_final_maps(terrain).and_then(|()| self.check(planet)).map_err(BakeError::Asked)?;
-        Target::checked(path).map_err(|error| BakeError::file(path, error))?;
+        for path in self.files(path) {
+            Target::checked(&path).map_err(|error| BakeError::file(&path, error))?;
+        }
         let squares = Square::all(&self.area, planet.radius_m());
         let side = u64::from(self.cells) + 1;
         let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
@@ -288,6 +290,19 @@ impl MeshBake {
             }
             MeshFormat::Obj => obj::write(self, planet, path, &pieces).map(Outcome::Done),
         }
+    }
+
+    /// The file, and those that an OBJ has beside it.
+    pub fn files(&self, path: &Path) -> Vec<PathBuf> {
+        let mut files = vec![path.to_owned()];
+        if self.format == MeshFormat::Obj {
+            files.push(beside(path, ".mtl"));
+            let squares = Square::all(&self.area, 1.0).into_iter().filter(|_| self.texture_px.is_some());
+            let kinds = ["albedo", "normal", "roughness"];
+            let texture = |square: Square| kinds.map(|kind| beside(path, &format!("_{}_{kind}.png", square.name())));
+            files.extend(squares.flat_map(texture));
+        }
+        files
     }
 
     /// Whether such a mesh of a planet can be written.

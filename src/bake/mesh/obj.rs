@@ -1,5 +1,8 @@
 //! Wavefront OBJ with a material file (MTL) and textures beside it. Each level of detail is an object; colours at
 //! vertices follow their positions, as many readers expect.
+//!
+//! All files are completed before the first takes its place, the OBJ last. Its comments name the files that belong to
+//! it with their CRC-32.
 
 use super::geometry::Geometry;
 use super::surface::{WATER_OPACITY, WATER_ROUGHNESS};
@@ -7,26 +10,28 @@ use super::{MeshBake, Piece, beside, level_name};
 use crate::bake::BakeError;
 use crate::bake::format::srgb_from_linear;
 use crate::bake::sidecar::MADE_BY;
-use crate::planet::file::{write_atomically, write_atomically_with};
+use crate::planet::file::{Staged, stage};
 use crate::planet::{Planet, Water};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes the file and those beside it. The OBJ comes last: what it names is there.
+/// Writes the file and those beside it, all of them or none.
 pub(super) fn write(
     mesh: &MeshBake,
     planet: &Planet,
     path: &Path,
     pieces: &[Piece],
 ) -> Result<Vec<PathBuf>, BakeError> {
-    let mut files = Vec::new();
+    let mut set: Vec<(PathBuf, Staged)> = Vec::new();
+    let mut about = mesh.about(planet);
     let mut write = |path: PathBuf, bytes: &[u8]| -> Result<String, BakeError> {
-        write_atomically(&path, bytes).map_err(|error| BakeError::file(&path, error))?;
+        let staged = stage(&path, None, &mut |file| file.write_all(bytes));
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        files.push(path);
+        about[format!("crc32 of {name}")] = json!(format!("{:08x}", crc32fast::hash(bytes)));
+        set.push((path.clone(), staged.map_err(|error| BakeError::file(&path, error))?));
         Ok(name)
     };
     let mut materials = format!("# {MADE_BY}\n");
@@ -45,9 +50,15 @@ pub(super) fn write(
         materials.push_str(&water_material(planet.water.as_ref()));
     }
     let library = write(beside(path, ".mtl"), materials.as_bytes())?;
-    let encode = &mut |file: &mut File| encode(&mesh.about(planet), pieces, &library, BufWriter::new(file));
-    write_atomically_with(path, None, encode).map_err(|error| BakeError::file(path, error))?;
-    files.insert(0, path.to_owned());
+    let encode = &mut |file: &mut File| encode(&about, pieces, &library, BufWriter::new(file));
+    let staged = stage(path, None, encode).map_err(|error| BakeError::file(path, error))?;
+    set.push((path.to_owned(), staged));
+    let mut files = Vec::with_capacity(set.len());
+    for (path, staged) in set {
+        staged.commit().map_err(|error| BakeError::file(&path, error))?;
+        files.push(path);
+    }
+    files.rotate_right(1);
     Ok(files)
 }
 

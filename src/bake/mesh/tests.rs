@@ -360,14 +360,32 @@ fn tiles_that_are_there_are_kept_and_those_of_another_bake_are_not_touched() {
     assert!(!folder.path().join("tileset.json").exists());
     let kept = folder.path().join("0/pos_x_0_0.glb");
     tiles(1).run(&terrain, folder.path(), &|_| true).unwrap();
-    let marked = [std::fs::read(&kept).unwrap(), b"kept".to_vec()].concat();
-    std::fs::write(&kept, &marked).unwrap();
-    let broken = folder.path().join("0/neg_x_0_0.glb");
-    std::fs::write(&broken, "no tile").unwrap();
-    assert!(matches!(tiles(1).run(&terrain, folder.path(), &|_| true).unwrap(), Outcome::Done(_)));
-    assert_eq!(std::fs::read(&kept).unwrap(), marked);
-    assert!(std::fs::read(&broken).unwrap().starts_with(b"glTF"));
-    assert!(folder.path().join("1/neg_z_1_1.glb").is_file());
+    assert!(
+        matches!(tiles(1).run(&terrain, folder.path(), &|_| true).unwrap(), Outcome::Kept(files) if files.len() == 31)
+    );
+    let written = || std::fs::metadata(&kept).unwrap().modified().unwrap();
+    let before = written();
+    // No tile, a bit that is another among the vertices, an end that is missing, a tile of the same length, no file.
+    let broken = |name: &str| folder.path().join(name);
+    let whole = std::fs::read(broken("1/neg_z_1_1.glb")).unwrap();
+    let flipped = |at: usize| {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 4;
+        bytes
+    };
+    for bytes in
+        [b"no tile".to_vec(), flipped(whole.len() - 99), flipped(300), whole[..whole.len() - 4].to_vec(), vec![]]
+    {
+        std::fs::write(broken("1/neg_z_1_1.glb"), bytes).unwrap();
+        std::fs::remove_file(broken("0/neg_x_0_0.glb")).unwrap();
+        assert!(matches!(tiles(1).run(&terrain, folder.path(), &|_| true).unwrap(), Outcome::Done(_)));
+        assert!(std::fs::read(broken("1/neg_z_1_1.glb")).unwrap() == whole && broken("0/neg_x_0_0.glb").is_file());
+    }
+    // A whole tile of another place.
+    std::fs::copy(broken("1/neg_z_1_0.glb"), broken("1/neg_z_1_1.glb")).unwrap();
+    tiles(1).run(&terrain, folder.path(), &|_| true).unwrap();
+    assert!(std::fs::read(broken("1/neg_z_1_1.glb")).unwrap() == whole);
+    assert_eq!(written(), before);
     let other = Tileset { cells: 6, ..tiles(1) }.run(&terrain, folder.path(), &|_| true).unwrap_err().to_string();
     assert!(other.contains("holds tiles of another bake"), "{other}");
     for (tileset, words) in [

@@ -3,7 +3,8 @@
 //! bit; skirts hide the gaps between levels. The geometric error of a tile is measured: how far the vertices of the
 //! tiles that replace it lie from it. The tileset lists the tiles, or leaves that to a file for each face (`implicit`).
 //!
-//! Each file is written as a whole, so that an interrupted bake goes on with the files that are missing.
+//! Each file is written as a whole and listed in `tiles.key` with its CRC-32, so that an interrupted bake goes on with
+//! the files that are missing or damaged. The tileset comes last.
 
 use super::geometry::Geometry;
 use super::implicit::{self, Outline, Subtree};
@@ -17,15 +18,15 @@ use super::{MeshWater, Piece, SAMPLES, Steps, glb, has_final_maps};
 use crate::bake::progress::Progress;
 use crate::bake::sidecar::of_planet;
 use crate::bake::{BakeError, Detail, Outcome, Region, make_folder};
-use crate::planet::file::write_atomically;
-use crate::planet::{Key, Planet, VERSION};
+use crate::made::{Ledger, crc32_of, identity};
+use crate::planet::file::{read, write_atomically};
+use crate::planet::{Key, Planet};
 use crate::sphere::{Face, LatLon, NodeId, Tangent};
 use crate::terrain::Terrain;
 use glam::DVec3;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::HashMap;
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// Finest level.
@@ -86,8 +87,8 @@ impl Tileset {
     }
 
     /// Writes `tileset.json` and the tiles `LEVEL/FACE_X_Y.glb` to a folder, which is made if there is none. Tiles that
-    /// an earlier run of the same bake left there are kept. The tileset comes last, after the files of the faces,
-    /// `subtrees/FACE_0_0_0.subtree`, if it is implicit.
+    /// an earlier run of the same bake left there are kept if they are whole. The tileset comes last, after the files of
+    /// the faces, `subtrees/FACE_0_0_0.subtree`, if it is implicit.
     ///
     /// `go_on` is asked again and again, from several threads, with the share of the work that is done (0 to 1). If it
     /// answers no, the bake stops; the same bake goes on from there.
@@ -105,8 +106,9 @@ impl Tileset {
         has_final_maps(terrain).and_then(|()| self.check(planet)).map_err(BakeError::Asked)?;
         let nodes = self.nodes(planet);
         make_folder(folder)?;
-        self.claim(planet, folder)?;
-        let is_there = |node: &NodeId| Measures::read(&folder.join(uri(*node))).is_some();
+        let key = self.key(planet);
+        let ledger = claim(key, folder)?;
+        let is_there = |node: &NodeId| ledger.has(&uri(*node), key, &folder.join(uri(*node)));
         let missing: Vec<NodeId> = nodes.par_iter().copied().filter(|node| !is_there(node)).collect();
         for level in 0..=self.levels {
             make_folder(&folder.join(level.to_string()))?;
@@ -114,7 +116,15 @@ impl Tileset {
         let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
         let side = u64::from(self.cells) + 1;
         let progress = Progress::new(missing.len() as u64 * (side * side + texels), go_on);
-        progress.each(&missing, |node, _| self.write(terrain, *node, &folder.join(uri(*node)), &progress))?;
+        progress.each(&missing, |node, _| {
+            let path = folder.join(uri(*node));
+            self.write(terrain, *node, &path, &progress)?;
+            if progress.is_stopped() {
+                return Ok(());
+            }
+            let listed = crc32_of(&path).and_then(|sum| ledger.add(&uri(*node), key, sum.finalize()));
+            listed.map_err(|error| BakeError::file(&path, error))
+        })?;
         if progress.is_stopped() {
             return Ok(Outcome::Stopped);
         }
@@ -135,9 +145,9 @@ impl Tileset {
             NodeId::roots().map(|root| self.tile(planet, root, &outlines)).into()
         };
         let text = format!("{:#}\n", self.tileset(planet, &measures, &faces));
-        write_atomically(&path, text.as_bytes()).map_err(|error| BakeError::file(&path, error))?;
+        let is_new = write_changed(&path, text.as_bytes())?;
         files.extend(nodes.into_iter().map(|node| folder.join(uri(node))));
-        Ok(Outcome::Done(files))
+        Ok(if missing.is_empty() && !is_new { Outcome::Kept(files) } else { Outcome::Done(files) })
     }
 
     /// Whether such a tileset of a planet can be written.
@@ -195,23 +205,10 @@ impl Tileset {
         planet.structure.is_some() && self.detail == Detail::All
     }
 
-    /// Notes which bake the folder belongs to.
-    fn claim(&self, planet: &Planet, folder: &Path) -> Result<(), BakeError> {
-        let program = (env!("CARGO_PKG_VERSION"), VERSION);
-        let planet = Key::of_planet(planet);
-        let water = self.water.name();
-        let content = (program, planet, self.cells, self.texture_px, water, self.detail);
-        let key = if self.is_quantized { Key::of(&(content, "quantised")) } else { Key::of(&content) };
-        let (path, wanted) = (folder.join("tiles.key"), format!("{:032x}\n", key.bits()));
-        match std::fs::read_to_string(&path) {
-            Ok(found) if found == wanted => Ok(()),
-            Ok(_) => {
-                let message = "holds tiles of another bake; name another folder, or remove that one";
-                Err(BakeError::file(folder, message))
-            }
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(BakeError::file(&path, error)),
-            Err(_) => write_atomically(&path, wanted.as_bytes()).map_err(|error| BakeError::file(&path, error)),
-        }
+    /// What makes the tiles. Which of them there are, and how they are listed, is another matter.
+    fn key(&self, planet: &Planet) -> Key {
+        let asked = (self.cells, self.texture_px, self.water.name(), self.detail, self.is_quantized);
+        identity(Key::of_planet(planet), &asked)
     }
 
     /// All nodes, the coarsest first.
@@ -388,17 +385,37 @@ fn subtrees(outlines: &HashMap<NodeId, Outline>) -> Vec<(Face, Subtree)> {
     faces
 }
 
+/// Notes which bake a folder belongs to. Gives the list of its tiles.
+fn claim(key: Key, folder: &Path) -> Result<Ledger, BakeError> {
+    let path = folder.join("tiles.key");
+    let failed = |error| BakeError::file(&path, error);
+    let (ledger, title) = (Ledger::open(&path).map_err(failed)?, format!("{:032x}", key.bits()));
+    match ledger.title() {
+        Some(found) if found == title => Ok(ledger),
+        Some(_) => {
+            let message = "holds tiles of another bake, or of another version; name another folder, or remove that one";
+            Err(BakeError::file(folder, message))
+        }
+        None => ledger.add_line(&title).map(|()| ledger).map_err(failed),
+    }
+}
+
 /// Writes the files of the faces, except those that are there.
 fn write_subtrees(folder: &Path, faces: &[(Face, Subtree)]) -> Result<Vec<PathBuf>, BakeError> {
     make_folder(&folder.join("subtrees"))?;
     let write = |(face, subtree): &(Face, Subtree)| {
-        let (path, bytes) = (folder.join(implicit::uri(*face)), subtree.encode());
-        if !std::fs::read(&path).is_ok_and(|found| found == bytes) {
-            write_atomically(&path, &bytes).map_err(|error| BakeError::file(&path, error))?;
-        }
-        Ok(path)
+        let path = folder.join(implicit::uri(*face));
+        write_changed(&path, &subtree.encode()).map(|_| path)
     };
     faces.iter().map(write).collect()
+}
+
+/// Writes a file, unless it is there. Whether it was not.
+fn write_changed(path: &Path, bytes: &[u8]) -> Result<bool, BakeError> {
+    if read(path, bytes.len() as u64).is_ok_and(|found| found == bytes) {
+        return Ok(false);
+    }
+    write_atomically(path, bytes).map(|()| true).map_err(|error| BakeError::file(path, error))
 }
 
 /// The axes of the box of a tile. Those of a face are its own, so that columns and rows of its tiles grow along them.

@@ -115,6 +115,7 @@ pub fn poll(state: &mut State, ctx: &egui::Context) {
     let (product, to) = (baking.product, baking.to.display().to_string());
     state.baking = None;
     match (result, product) {
+        (Ok(Outcome::Kept(_)), _) => state.notices.say(format!("All is there already in {to}; nothing was written")),
         (Ok(Outcome::Done(files)), Product::Maps) if files.len() == 1 => {
             state.notices.say(format!("Saved 1 map in {to}"));
         }
