@@ -1,7 +1,8 @@
 //! `tellus film`: the frames of a flight over the bookmarks of a planet.
 
 use super::camera::{CameraArgs, told};
-use super::{Failure, args, headless, load, maps, system};
+use super::work::WorkArgs;
+use super::{Failure, args, headless, load, maps, system, tell};
 use crate::film::{CameraPath, Film, Sequence};
 use crate::planet::{Bookmark, Planet};
 use crate::render::{Photo, Renderer};
@@ -35,14 +36,18 @@ pub(super) struct Args {
     /// Seconds of the planet that pass in each second of the film
     #[arg(long, value_name = "FACTOR", default_value = "1", allow_hyphen_values = true, value_parser = args::seconds)]
     speed: f64,
-    /// Keep frames that are there already: goes on where a film was interrupted
+    /// Go on where a film was interrupted: keep frames that are whole and that the same film made, which way.frames
+    /// lists, and draw all others
     #[arg(long)]
     resume: bool,
     #[command(flatten)]
     camera: CameraArgs,
+    #[command(flatten)]
+    work: WorkArgs,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    args.work.begin()?;
     let system = args.body.as_ref().map(|body| system::place(&args.file, body)).transpose()?;
     let planet = match &system {
         Some(system) => Arc::new(system::lit_planet(system, args.time)?),
@@ -63,7 +68,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let film = Film { secs: args.seconds, fps: args.fps, speed: args.speed };
     let mut sequence = Sequence::film(first, path, film, &args.output, kind);
     sequence.resumes = args.resume;
-    gpu.checked(|| sequence.take(&mut renderer, &mut told()))?;
+    let taken = gpu.checked(|| sequence.take(&mut renderer, &mut told()))?;
+    if taken.kept == sequence.count() {
+        tell("all frames are there already, whole, and of this film: nothing was done");
+    }
     Ok(())
 }
 

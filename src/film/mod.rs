@@ -17,6 +17,6 @@ mod thumbnail;
 pub use file::{FileKind, frame_path};
 pub use path::CameraPath;
 pub use place::InSystem;
-pub use sequence::{Film, Sequence};
+pub use sequence::{Film, Sequence, Taken};
 pub use shot::Shot;
 pub use thumbnail::Thumbnail;

@@ -2,6 +2,7 @@
 
 use super::place::InSystem;
 use crate::lod::View;
+use crate::planet::Key;
 use crate::render::{DebugView, Photo, Post, RenderError, Renderer, Scene};
 use crate::sphere::LatLon;
 use crate::terrain::{Revision, Terrain};
@@ -78,6 +79,23 @@ impl Shot {
             lens.focus_m = middle_m.unwrap_or(SKY_M);
         }
         photo.take(renderer, &scene, progress)
+    }
+
+    /// The key of what all frames of a film share: the planet, and the system that it is in.
+    pub(super) fn shared(&self) -> Key {
+        let system = self.system.as_ref().map(|system| {
+            let worlds = system.worlds();
+            let planets = (0..worlds.system().bodies.len()).map(|body| worlds.planet(body));
+            let planets: Vec<_> = planets.map(|planet| planet.map(|planet| Key::of_planet(planet))).collect();
+            Key::of(&(worlds.system(), system.body(), planets))
+        });
+        Key::of(&(Key::of_planet(self.revision.planet()), system))
+    }
+
+    /// Everything else that the picture depends on.
+    pub(super) fn own(&self) -> impl std::fmt::Debug + use<> {
+        let Self { view, time_secs, sun, debug_view, post, photo, focuses, ground_secs, ground_bytes, .. } = *self;
+        (view, time_secs, sun, debug_view, post, photo, (focuses, ground_secs, ground_bytes))
     }
 
     /// The ground for a view, in the time and the memory that there are.

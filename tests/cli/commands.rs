@@ -354,7 +354,7 @@ fn altitude_goes_into_a_giant_as_far_as_there_is_light() {
     assert!(status == 2 && err.contains("use -300000 to"), "{err}");
 }
 
-/// A film has a frame for each moment; frames that are there stay when it is resumed.
+/// A film has a frame for each moment; frames that are whole and its own stay when it is resumed.
 #[test]
 fn a_film_is_numbered_frames() {
     let folder = tempfile::tempdir().unwrap();
@@ -370,12 +370,30 @@ fn a_film_is_numbered_frames() {
     let before: Vec<Vec<u8>> = frames.iter().map(|frame| std::fs::read(frame).unwrap()).collect();
     assert!(before[0] != before[1] && before[1] != before[2]);
     assert!(!folder.path().join("way-0004.png").exists());
-    std::fs::write(&frames[0], "mine").unwrap();
-    std::fs::remove_file(&frames[1]).unwrap();
-    let (status, _, err) = run(&[&args[..], &["--seconds", "1", "--resume"]].concat());
-    assert_eq!((status, err.as_str()), (0, ""));
-    assert_eq!(std::fs::read(&frames[0]).unwrap(), b"mine");
-    assert_eq!(std::fs::read(&frames[1]).unwrap(), before[1]);
+    let resume = |more: &[&str]| {
+        let (status, out, err) = run(&[&args[..], &["--seconds", "1", "--resume"], more].concat());
+        assert!(status == 0 && out.is_empty(), "{out}{err}");
+        err
+    };
+    assert!(resume(&[]).contains("all frames are there already"));
+    // Frames that are damaged, cut off, empty, missing, of other content or of another size are drawn again; others
+    // stay.
+    let written = |frame: &Path| std::fs::metadata(frame).unwrap().modified().unwrap();
+    let kept = written(&frames[2]);
+    let mut damaged = before[0].clone();
+    let middle = damaged.len() / 2;
+    damaged[middle] ^= 8;
+    for bytes in [&damaged[..], &before[0][..middle], b"", &before[1]] {
+        std::fs::write(&frames[0], bytes).unwrap();
+        std::fs::remove_file(&frames[1]).unwrap();
+        assert_eq!(resume(&[]), "");
+        assert!(std::fs::read(&frames[0]).unwrap() == before[0] && std::fs::read(&frames[1]).unwrap() == before[1]);
+    }
+    assert_eq!(written(&frames[2]), kept);
+    assert_eq!(resume(&["--exposure", "1"]), "");
+    assert!(std::fs::read(&frames[2]).unwrap() != before[2]);
+    assert_eq!(resume(&[]), "");
+    assert!(std::fs::read(&frames[2]).unwrap() == before[2]);
     let (status, _, err) = run(&[&args[..], &["--over", "A,C"]].concat());
     assert!(status == 1 && err.contains("there is no bookmark \"C\"; there is: A, B"), "{err}");
     let (status, _, err) = run(&["film", LAYERED, "-o", text_of(&film)]);

@@ -1,6 +1,6 @@
 //! Photographs and films: what the user set, and the one that is being taken on another thread.
 
-use super::job::Job;
+use super::job::{GoOn, Job};
 use crate::film::Sequence;
 use crate::lod::Quality;
 use crate::render::Renderer;
@@ -61,7 +61,9 @@ impl Shooting {
     /// Takes photographs on another thread. `wake` is called when there is progress.
     pub fn start(sequence: Sequence, mut renderer: Renderer, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let (first, count) = (sequence.first_file(), sequence.count());
-        let job = Job::start(move |go_on| sequence.take(&mut renderer, &mut |share| go_on(share)), wake);
+        let take =
+            move |go_on: GoOn<'_>| sequence.take(&mut renderer, &mut |share| go_on(share)).map(|taken| taken.done);
+        let job = Job::start(take, wake);
         Self { first, count, job }
     }
 
