@@ -1,11 +1,11 @@
-//! Many points for `tellus sample`: `LAT,LON` a line in, a JSON object a line out.
+//! Many points for `tellus sample`: `LAT,LON` a line in, a JSON object or a height a line out.
 //!
-//! Lines are answered in batches on all cores. A batch ends where the next line has not come yet, so that a program
-//! may write a line and wait for its answer.
+//! Lines are answered in batches on all cores. A batch of a pipe ends where the next line has not come yet, so that a
+//! program may write a line and wait for its answer.
 
 use super::sample::{Moment, as_json};
 use super::{Failure, args, print_on};
-use crate::sphere::LatLon;
+use crate::sphere::{LatLon, curve};
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use rayon::prelude::*;
 use serde_json::json;
@@ -14,8 +14,9 @@ use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read};
 use std::path::Path;
 
-/// Most points of a batch.
+/// Most points of a batch, and of one of heights alone.
 const BATCH: usize = 4096;
+const HEIGHTS: usize = 1 << 17;
 /// Points of a task. Lines that follow each other are often close together on the ground: a thread then builds the
 /// river blocks around them once.
 const TASK: usize = 32;
@@ -29,6 +30,8 @@ pub(super) struct Points {
     lines: BufReader<Box<dyn Read>>,
     /// The number of the last line that was read, from 1.
     number: usize,
+    /// Whether all lines are there already: nobody waits for an answer.
+    is_file: bool,
 }
 
 /// A line of the input.
@@ -45,27 +48,37 @@ enum Line {
 impl Points {
     /// Opens a file, or standard input for `-`.
     pub(super) fn open(path: &Path) -> Result<Self, Failure> {
-        let (name, lines): (String, Box<dyn Read>) = if path == Path::new("-") {
-            ("standard input".to_owned(), Box::new(io::stdin()))
+        let (name, lines, is_file): (String, Box<dyn Read>, bool) = if path == Path::new("-") {
+            ("standard input".to_owned(), Box::new(io::stdin()), false)
         } else {
             let file = File::open(path).map_err(|error| format!("{}: {error}", path.display()))?;
-            (path.display().to_string(), Box::new(file))
+            let is_file = file.metadata().is_ok_and(|about| about.is_file());
+            (path.display().to_string(), Box::new(file), is_file)
         };
-        Ok(Self { name, lines: BufReader::with_capacity(1 << 16, lines), number: 0 })
+        Ok(Self { name, lines: BufReader::with_capacity(1 << 16, lines), number: 0, is_file })
     }
 
-    /// Prints the answers. What stands before a wrong line is answered.
-    pub(super) fn answer(mut self, terrain: &Terrain, moment: &Moment) -> Result<(), Failure> {
-        let mut batch = Vec::with_capacity(BATCH);
+    /// Prints all that is known of each point. What stands before a wrong line is answered.
+    pub(super) fn answer(self, terrain: &Terrain, moment: &Moment) -> Result<(), Failure> {
+        self.answer_with(BATCH, &|places| answers(terrain, moment, places))
+    }
+
+    /// As [`Points::answer`], with heights alone, metres.
+    pub(super) fn answer_heights(self, terrain: &Terrain) -> Result<(), Failure> {
+        self.answer_with(HEIGHTS, &|places| heights(terrain, places))
+    }
+
+    fn answer_with(mut self, most: usize, answers: &dyn Fn(&[(f64, f64)]) -> Vec<String>) -> Result<(), Failure> {
+        let mut batch = Vec::with_capacity(most);
         loop {
             let line = self.next();
             if let Ok(Line::Place { lat, lon }) = line {
                 batch.push((lat, lon));
             }
             let goes_on = matches!(line, Ok(Line::Place { .. } | Line::Other));
-            let has_line = goes_on && batch.len() < BATCH && self.lines.buffer().contains(&b'\n');
+            let has_line = goes_on && batch.len() < most && (self.is_file || self.lines.buffer().contains(&b'\n'));
             if !has_line && !batch.is_empty() {
-                if !print_on(&answers(terrain, moment, &batch).join("\n"))? {
+                if !print_on(&answers(&batch).join("\n"))? {
                     return Ok(());
                 }
                 batch.clear();
@@ -111,4 +124,21 @@ fn answers(terrain: &Terrain, moment: &Moment, places: &[(f64, f64)]) -> Vec<Str
         places.iter().zip(&dirs).zip(&samples).map(answer).collect::<Vec<_>>()
     });
     tasks.collect::<Vec<_>>().concat()
+}
+
+/// Heights in metres, some lines at a time. They are asked along a curve that keeps neighbours together.
+fn heights(terrain: &Terrain, places: &[(f64, f64)]) -> Vec<String> {
+    let place = |(number, &(lat, lon)): (usize, &(f64, f64))| {
+        let dir = LatLon::from_degrees(lat, lon).direction();
+        (curve::place(dir), number, dir)
+    };
+    let mut along: Vec<_> = places.par_iter().enumerate().map(place).collect();
+    along.par_sort_unstable_by_key(|(place, number, _)| (*place, *number));
+    let dirs: Vec<_> = along.iter().map(|(.., dir)| *dir).collect();
+    let mut in_order = vec![0.0; places.len()];
+    for ((_, number, _), height_m) in along.iter().zip(terrain.heights_m(&dirs)) {
+        in_order[*number] = height_m;
+    }
+    let lines = |heights_m: &[f64]| heights_m.iter().map(f64::to_string).collect::<Vec<_>>().join("\n");
+    in_order.par_chunks(BATCH).map(lines).collect()
 }

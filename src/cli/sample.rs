@@ -2,6 +2,7 @@
 //! games use.
 
 use super::points::Points;
+use super::work::WorkArgs;
 use super::{Failure, args, load, maps, print};
 use crate::clouds::{CloudCover, CloudField};
 use crate::sea::{Column, WaterSurface, Waves};
@@ -42,6 +43,10 @@ pub(super) struct Args {
     /// lon
     #[arg(long, value_name = "FILE", conflicts_with_all = ["lat", "lon"])]
     points: Option<PathBuf>,
+    /// Of --points the heights alone, in metres: a number on a line for each, as height_m of --json. Millions of points
+    /// a minute
+    #[arg(long, requires = "points", conflicts_with_all = ["json", "time"])]
+    heights: bool,
     /// Time in seconds, for clouds and waves
     #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
     time: f64,
@@ -51,15 +56,24 @@ pub(super) struct Args {
     /// year), plate, cloud_cover, middle_cover, veil_cover and fog_cover (0 to 1)
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    work: WorkArgs,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    args.work.begin()?;
     let planet = Arc::new(load(&args.file)?);
+    if args.heights {
+        planet.check_ground()?;
+    }
     let terrain = || maps::terrain(planet);
     if let Some(points) = &args.points {
         // A file that is not there is told before anything is solved.
         let points = Points::open(points)?;
         let terrain = terrain()?;
+        if args.heights {
+            return points.answer_heights(&terrain);
+        }
         return points.answer(&terrain, &Moment::new(&terrain, args.time));
     }
     let terrain = terrain()?;
