@@ -56,7 +56,8 @@ pub(crate) fn crc32_of(path: &Path) -> io::Result<Hasher> {
 /// somebody else has broken count for nothing.
 pub(crate) struct Ledger {
     path: PathBuf,
-    /// The first line, which may say what the set is.
+    /// The first line, which may say what the set is. Films have none.
+    #[cfg_attr(not(feature = "bake"), allow(dead_code))]
     title: Option<String>,
     parts: BTreeMap<String, (Key, u32)>,
     /// The end of the file once a line was added, and whether the file must get an end of line before the next.
@@ -78,6 +79,7 @@ impl Ledger {
     }
 
     /// The first line.
+    #[cfg_attr(not(feature = "bake"), allow(dead_code))]
     pub(crate) fn title(&self) -> Option<&str> {
         self.title.as_deref()
     }

@@ -117,7 +117,8 @@ impl Bake {
         for group in files.chunk_by(|a, b| a.about == b.about) {
             let BakedFile { path, about: beside, pictures: of_first, map } = &group[0];
             let mut sums = Vec::with_capacity(group.len());
-            for ((staged, sum), file) in encoded.by_ref().zip(group) {
+            // In this order: the other would take one more than the group has.
+            for (file, (staged, sum)) in group.iter().zip(encoded.by_ref()) {
                 pictures.push((staged, &file.path));
                 sums.push(sum);
             }

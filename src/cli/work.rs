@@ -14,7 +14,7 @@ pub(super) struct WorkArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// How work that takes long tells its progress on standard error. auto: a percentage that counts up at a terminal,
-    /// elsewhere a line at most every 10 s. json: lines of objects with progress, share, elapsed_s and left_s
+    /// elsewhere a line a minute. json: lines of objects with progress, share, elapsed_s and left_s
     #[arg(long, value_name = "HOW", value_enum, default_value = "auto")]
     progress: How,
 }
@@ -40,9 +40,9 @@ impl WorkArgs {
     }
 }
 
-/// Time after which a person at a terminal is told, and after which a line is written elsewhere.
+/// Time after which a person at a terminal is told, and between lines elsewhere.
 const PATIENCE: Duration = Duration::from_secs(2);
-const LINES: Duration = Duration::from_secs(10);
+const LINES: Duration = Duration::from_secs(60);
 /// Least time between two objects.
 const OBJECTS: Duration = Duration::from_millis(500);
 

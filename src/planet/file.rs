@@ -375,7 +375,7 @@ pub(crate) fn stage(
 
 impl Staged {
     /// Where its bytes are until it is committed.
-    #[cfg(any(feature = "bake", feature = "render"))]
+    #[cfg(feature = "bake")]
     pub(crate) fn unfinished(&self) -> &Path {
         &self.unfinished
     }

@@ -24,7 +24,9 @@ fn rills(folder: &Path) -> PathBuf {
 
 fn bake(preset: &Path, folder: &Path, maps: &[&str], more: &[&str]) {
     let (what, out) = (maps.join(","), folder.to_str().unwrap());
-    let args = [&["bake", preset.to_str().unwrap(), "-o", out, "--what", what.as_str()], more].concat();
+    // What samples answer.
+    let all = ["bake", preset.to_str().unwrap(), "-o", out, "--detail", "all", "--progress", "none"];
+    let args = [&all[..], &["--what", what.as_str()], more].concat();
     let output = command(&args).output().unwrap();
     assert!(output.status.success(), "{more:?}: {}", String::from_utf8_lossy(&output.stderr));
 }

@@ -87,8 +87,8 @@ impl Tileset {
     }
 
     /// Writes `tileset.json` and the tiles `LEVEL/FACE_X_Y.glb` to a folder, which is made if there is none. Tiles that
-    /// an earlier run of the same bake left there are kept if they are whole. The tileset comes last, after the files of
-    /// the faces, `subtrees/FACE_0_0_0.subtree`, if it is implicit.
+    /// an earlier run of the same bake left there are kept if they are whole. The tileset comes last, after the files
+    /// of the faces, `subtrees/FACE_0_0_0.subtree`, if it is implicit.
     ///
     /// `go_on` is asked again and again, from several threads, with the share of the work that is done (0 to 1). If it
     /// answers no, the bake stops; the same bake goes on from there.
