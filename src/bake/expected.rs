@@ -50,7 +50,7 @@ impl Bake {
             let x = (square * width * 5 / SQUARES % width) as u32;
             let pixel = |i: u32| ((x + i % SIDE).min(grid.width - 1), (y + i / SIDE).min(grid.height - 1));
             let dirs: Vec<_> = (0..SIDE * SIDE).map(pixel).map(|(x, y)| grid.direction(picture, x, y)).collect();
-            self.terrain.heights_into(&dirs, &mut heights_m, &mut scratch);
+            self.terrain.heights_spaced_into(&dirs, 0.0, &mut heights_m, &mut scratch);
         }
         let each_secs = begun.elapsed().as_secs_f64() / (SQUARES * u64::from(SIDE * SIDE)) as f64;
         let secs = each_secs * pixels as f64 / rayon::current_num_threads() as f64;

@@ -60,15 +60,15 @@ impl Points {
 
     /// Prints all that is known of each point. What stands before a wrong line is answered.
     pub(super) fn answer(self, terrain: &Terrain, moment: &Moment) -> Result<(), Failure> {
-        self.answer_with(BATCH, &|places| answers(terrain, moment, places))
+        self.answer_with(BATCH, |places| answers(terrain, moment, places))
     }
 
     /// As [`Points::answer`], with heights alone, metres.
     pub(super) fn answer_heights(self, terrain: &Terrain) -> Result<(), Failure> {
-        self.answer_with(HEIGHTS, &|places| heights(terrain, places))
+        self.answer_with(HEIGHTS, |places| heights(terrain, places))
     }
 
-    fn answer_with(mut self, most: usize, answers: &dyn Fn(&[(f64, f64)]) -> Vec<String>) -> Result<(), Failure> {
+    fn answer_with(mut self, most: usize, answers: impl Fn(&[(f64, f64)]) -> Vec<String>) -> Result<(), Failure> {
         let mut batch = Vec::with_capacity(most);
         loop {
             let line = self.next();

@@ -109,7 +109,14 @@ impl Terrain {
         if let Some(relief) = &self.relief {
             let near = &mut scratch.edits;
             let is_painted = self.edits.as_ref().is_some_and(|edits| edits.may_paint(&points.dirs, near));
-            relief.add(heights, spacings_rad, points, inputs, &mut scratch.shares, is_painted, self.stack.riverside());
+            relief.add(
+                heights,
+                (points, spacings_rad),
+                inputs,
+                &mut scratch.shares,
+                is_painted,
+                self.stack.riverside(),
+            );
         }
     }
 

@@ -163,7 +163,7 @@ impl Terrain {
     pub fn height_m(&self, dir_planet: DVec3) -> f64 {
         let mut height_m = 0.0;
         with_scratch(|scratch| {
-            self.heights_spaced_into(&[dir_planet], 0.0, std::slice::from_mut(&mut height_m), scratch)
+            self.heights_spaced_into(&[dir_planet], 0.0, std::slice::from_mut(&mut height_m), scratch);
         });
         height_m
     }

@@ -123,8 +123,7 @@ impl Relief {
     pub(crate) fn add(
         &self,
         heights: &mut Heights,
-        spacings_rad: &[f64],
-        points: &Points,
+        (points, spacings_rad): (&Points, &[f64]),
         inputs: &mut impl Inputs,
         shares: &mut Shares,
         is_painted: bool,

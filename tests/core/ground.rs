@@ -23,7 +23,7 @@ fn terrain() -> Arc<Terrain> {
 
 /// A patch that all cases of a test share: what it was asked before must not matter.
 fn shared(patch: &'static LazyLock<Mutex<GroundPatch>>) -> std::sync::MutexGuard<'static, GroundPatch> {
-    patch.lock().unwrap_or_else(|broken| broken.into_inner())
+    patch.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
 /// A capsule whose middle is at a height over the ground.
