@@ -10,6 +10,9 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+/// Radius of the smallest planet that a preset may describe, metres.
+const LEAST_RADIUS_M: f64 = 1000.0;
+
 /// The file: the version, then the fields of [`System`].
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "System", default, deny_unknown_fields)]
@@ -143,7 +146,38 @@ impl System {
         for number in 0..self.bodies.len() {
             self.problems_of(number, &mut found);
         }
+        // Only bodies that have orbits have places.
+        if found.is_empty() {
+            self.problems_of_places(&mut found);
+        }
         found
+    }
+
+    /// Bodies that are at one place at time zero: nearer to each other than the least sizes that they can have.
+    fn problems_of_places(&self, found: &mut Vec<(ParamPath, String)>) {
+        let bodies = super::nbody::Bodies::of(self);
+        let masses = bodies.masses();
+        let least_m = |body: &Member| body.light.as_ref().map_or(LEAST_RADIUS_M, super::Light::radius_m);
+        for (number, body) in self.bodies.iter().enumerate().filter(|(_, body)| !body.is_point()) {
+            let others = self.bodies[..number].iter().enumerate().filter(|(_, other)| !other.is_point());
+            for (before, other) in others {
+                let apart_m = (masses[number].position_m - masses[before].position_m).length();
+                let touch_m = least_m(body) + least_m(other);
+                // A distance that is no number is none.
+                if !(apart_m >= touch_m) {
+                    let field = if body.orbit.is_some() { "orbit" } else { "start" };
+                    let (a, b) = (&body.name, &other.name);
+                    let message = format!(
+                        "`{a}` and `{b}` are at one place at time zero: their centres are {:.3} km apart, and their \
+                         sizes ask for {:.0} km; use another orbit or anomaly_deg",
+                        apart_m / 1000.0,
+                        touch_m / 1000.0
+                    );
+                    found.push((path_of(number, field), message));
+                    break;
+                }
+            }
+        }
     }
 
     fn problems_of(&self, number: usize, found: &mut Vec<(ParamPath, String)>) {

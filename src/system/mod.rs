@@ -3,7 +3,8 @@
 //! - this file: the data of a system file; [`file`](mod@file): loading and saving
 //! - [`kepler`]: orbits from elements, exact at any time
 //! - [`ephemeris`]: where all bodies are at a time, and how they are turned
-//! - [`nbody`]: the motion under the attraction of all bodies, to see whether a system lasts
+//! - [`nbody`]: the motion under the attraction of all bodies; `radau`: the integrator of 15th order
+//! - [`trial`]: runs of a system, to see whether it lasts; `sweep`: how near bodies come within a step
 //! - `edit`: bodies that are added, removed and renamed; `random`: random orbits
 //! - [`trails`]: the paths of bodies during a trial
 //! - [`watch`]: hot reload of a system file
@@ -22,9 +23,12 @@ pub mod kepler;
 pub mod light;
 pub mod limits;
 pub mod nbody;
+mod radau;
 mod random;
 pub mod shipped;
+mod sweep;
 pub mod trails;
+pub mod trial;
 pub mod watch;
 
 pub use ephemeris::{Ephemeris, Pose};
@@ -164,6 +168,12 @@ impl System {
     /// The number of the parent of each body; None at the root, and for a parent that is not there.
     pub fn parents(&self) -> Vec<Option<usize>> {
         self.bodies.iter().map(|body| if body.parent.is_empty() { None } else { self.find(&body.parent) }).collect()
+    }
+
+    /// Whether a body goes with another one: it orbits it, or a body that does.
+    pub fn carries(&self, body: usize, other: usize) -> bool {
+        let parents = self.parents();
+        std::iter::successors(parents[other], |above| parents[*above]).any(|above| above == body)
     }
 }
 

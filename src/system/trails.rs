@@ -1,6 +1,7 @@
 //! The paths of bodies during a trial, about their parents.
 
-use super::nbody::Bodies;
+use super::nbody::{Bodies, Mass};
+use super::sweep::Sweep;
 use super::{Ephemeris, System};
 use glam::DVec3;
 use std::collections::VecDeque;
@@ -13,6 +14,9 @@ const MOST: usize = 600;
 #[derive(Clone, Debug, Default)]
 pub struct Trails {
     bodies: Vec<Trail>,
+    /// The masses when they were noted last, and when.
+    last: Vec<Mass>,
+    last_secs: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -33,25 +37,32 @@ impl Trails {
             next_secs: 0.0,
             points_m: VecDeque::new(),
         };
-        Self { bodies: system.parents().into_iter().enumerate().map(trail).collect() }
+        let bodies = system.parents().into_iter().enumerate().map(trail).collect();
+        Self { bodies, last: Vec::new(), last_secs: 0.0 }
     }
 
-    /// Notes where the bodies are.
+    /// Notes the way of the bodies since the last time, which is a step of the trial.
     pub fn note(&mut self, bodies: &Bodies) {
-        let masses = bodies.masses();
+        let (masses, now_secs) = (bodies.masses(), bodies.time_secs());
+        if self.last.len() != masses.len() {
+            (self.last, self.last_secs) = (masses.to_vec(), now_secs);
+        }
+        let step_secs = now_secs - self.last_secs;
         for (number, trail) in self.bodies.iter_mut().enumerate() {
             let Some(parent) = trail.parent else { continue };
-            if bodies.time_secs() < trail.next_secs {
-                continue;
-            }
-            // Points have no mass and do not move with their children: a pair is seen from the middle of the system.
-            let origin_m = if masses[parent].gravity > 0.0 { masses[parent].position_m } else { DVec3::ZERO };
-            trail.next_secs = bodies.time_secs() + trail.every_secs;
-            trail.points_m.push_back(masses[number].position_m - origin_m);
-            if trail.points_m.len() > MOST {
-                trail.points_m.pop_front();
+            let sweep =
+                Sweep::new([[self.last[parent], self.last[number]], [masses[parent], masses[number]]], step_secs);
+            while trail.next_secs <= now_secs {
+                let share = if step_secs > 0.0 { (trail.next_secs - self.last_secs) / step_secs } else { 1.0 };
+                trail.points_m.push_back(sweep.at(share.clamp(0.0, 1.0)));
+                trail.next_secs = trail.every_secs.max(step_secs / MOST as f64) + trail.next_secs;
+                if trail.points_m.len() > MOST {
+                    trail.points_m.pop_front();
+                }
             }
         }
+        self.last.copy_from_slice(masses);
+        self.last_secs = now_secs;
     }
 
     /// The path of a body about its parent, metres, the oldest point first.
@@ -63,7 +74,8 @@ impl Trails {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::nbody::{Scheme, fitting_step_secs, try_out};
+    use crate::system::nbody::Scheme;
+    use crate::system::trial::Plan;
     use crate::system::{YEAR_SECS, shipped};
 
     #[test]
@@ -71,8 +83,8 @@ mod tests {
         let system = shipped::ALL[0].load().unwrap();
         let radii_m = vec![0.0; system.bodies.len()];
         let mut trails = Trails::new(&system);
-        let span = (0.2 * YEAR_SECS, fitting_step_secs(&system));
-        try_out(&system, &radii_m, Scheme::Yoshida6, span, &mut |_, bodies| {
+        let plan = Plan::new(&system, &radii_m, Scheme::default(), 0.2 * YEAR_SECS, None).unwrap();
+        plan.run(&mut |_, bodies| {
             trails.note(bodies);
             true
         });

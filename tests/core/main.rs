@@ -10,9 +10,9 @@
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
 //! - `sculpt`, `images`, `stamp`, `erosion`, `paint`, `masks`, `structural`: ground edits
-//! - `system`: orbits and resonances
 //! - `rivers`: water on the whole course of rivers
 //! - `physics`, `ground`, `walker`: contacts, sweeps, and those who walk
+//! - `system`: orbits and resonances; `trial`: what trials of systems find
 //! - `water`: rivers, lakes and weather of a structure
 //! - `spread`: points far apart among rivers
 //! - `atmosphere`: the CPU reference of the air
@@ -49,6 +49,7 @@ mod structural;
 mod structure;
 mod system;
 mod terrain;
+mod trial;
 mod walker;
 mod water;
 

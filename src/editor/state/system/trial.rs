@@ -2,9 +2,10 @@
 
 use crate::editor::state::job::Job;
 use crate::render::Worlds;
-use crate::system::nbody::{Scheme, Trial, fitting_step_secs, try_out};
+use crate::system::YEAR_SECS;
+use crate::system::nbody::Scheme;
 use crate::system::trails::Trails;
-use crate::system::{System, YEAR_SECS};
+use crate::system::trial::{Plan, Trial};
 use std::sync::Arc;
 
 /// What a run showed.
@@ -22,25 +23,27 @@ pub enum TrialRun {
     #[default]
     None,
     /// It is being run.
-    Running(Job<Tried>),
+    Running(Job<Result<Tried, String>>),
     /// It was run.
     Done(Tried),
+    /// It cannot be run: why, and what would be right.
+    Refused(String),
 }
 
 impl TrialRun {
     /// Starts a run of some years. `wake` is called when there is progress.
     pub fn start(worlds: Arc<Worlds>, years: f64, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let work = move |go_on: crate::editor::state::job::GoOn<'_>| {
-            let system: &System = worlds.system();
+            let (system, radii_m) = (worlds.system(), worlds.radii_m());
+            let plan = Plan::new(system, &radii_m, Scheme::default(), years * YEAR_SECS, None)?;
             let mut trails = Trails::new(system);
-            let span = (years * YEAR_SECS, fitting_step_secs(system));
             let mut steps = 0_u32;
-            let trial = try_out(system, &worlds.radii_m(), Scheme::Yoshida6, span, &mut |done, bodies| {
+            let trial = plan.run(&mut |done, bodies| {
                 trails.note(bodies);
                 steps = steps.wrapping_add(1);
                 !steps.is_multiple_of(64) || go_on(done)
             });
-            Tried { trial, trails }
+            Ok(Tried { trial, trails })
         };
         TrialRun::Running(Job::start(work, wake))
     }
@@ -50,8 +53,8 @@ impl TrialRun {
         let TrialRun::Running(job) = self else { return false };
         match job.ended() {
             None => false,
-            Some(Some(tried)) => {
-                *self = TrialRun::Done(tried);
+            Some(Some(result)) => {
+                *self = result.map_or_else(TrialRun::Refused, TrialRun::Done);
                 false
             }
             Some(None) => {
