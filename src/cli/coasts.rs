@@ -1,9 +1,11 @@
-//! `tellus coasts`: coasts, or lines of another height, as GeoJSON.
+//! `tellus coasts`: coasts, or lines of another height, as GeoJSON: as lines, or as polygons of land and water.
 
 use super::geojson::{self, feature, rounded};
+use super::polygons::{Lines, Polygon};
 use super::{Failure, args, load, maps};
 use crate::planet::file::{Target, write_atomically};
 use crate::terrain::Contour;
+use glam::DVec3;
 use serde_json::{Value, json};
 use std::f64::consts::FRAC_PI_2;
 use std::path::PathBuf;
@@ -20,8 +22,8 @@ pub(super) struct Args {
     /// The preset
     #[arg(value_name = "FILE.ron")]
     file: PathBuf,
-    /// The file to write: closed LineStrings with the land to the left, the longest first; one that crosses the
-    /// antimeridian is a MultiLineString
+    /// The file to write. Lines: closed LineStrings with the land to the left, the longest first; one that crosses the
+    /// antimeridian is a MultiLineString. Polygons: of the kinds land and water, cut at the antimeridian
     #[arg(short, long, value_name = "OUT.geojson")]
     output: PathBuf,
     /// Height of the lines over the reference sphere [default: the sea level]
@@ -31,9 +33,19 @@ pub(super) struct Args {
     /// of the equator]
     #[arg(long, value_name = "METRES", value_parser = args::length)]
     spacing: Option<f64>,
-    /// Least length of a line
+    /// What to write
+    #[arg(long = "as", value_name = "SHAPE", value_enum, default_value_t = Shape::Lines)]
+    shape: Shape,
+    /// Least length of a line; of polygons, of the coast around an island or a lake
     #[arg(long, value_name = "KILOMETRES", default_value = "0", value_parser = args::depth)]
     min_length: f64,
+}
+
+/// What a coast is written as.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Shape {
+    Lines,
+    Polygons,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -54,9 +66,26 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let failed = |error: String| format!("{}: {error}", args.output.display());
     Target::checked(&args.output).map_err(failed)?;
-    let lines = maps::terrain(planet)?.contours(height_m, cells);
+    let terrain = maps::terrain(planet)?;
+    let lines = terrain.contours(height_m, cells);
     let kept = lines.iter().filter(|line| line.length_km >= args.min_length);
-    let text = geojson::collection(kept.map(|line| contour(line, height_m)))?;
+    let text = match args.shape {
+        Shape::Lines => {
+            let drawn = kept.map(|line| contour(line, height_m)).filter(|line| !line["geometry"].is_null());
+            geojson::collection(drawn)?
+        }
+        Shape::Polygons => {
+            // Where there is no line, one place tells for all.
+            let is_land = terrain.height_m(DVec3::X) >= height_m;
+            let lines = Lines::new(kept.map(|line| line.points.as_slice()));
+            let [land, water] = [true, false].map(|left| lines.polygons(left, left == is_land));
+            let side = |polygons: Vec<Polygon>, kind: &'static str| {
+                let properties = json!({ "kind": kind, "height_m": height_m });
+                polygons.into_iter().map(move |polygon| feature(&polygon.geometry(), &properties))
+            };
+            geojson::collection(side(land, "land").chain(side(water, "water")))?
+        }
+    };
     write_atomically(&args.output, text.as_bytes()).map_err(failed)?;
     Ok(())
 }

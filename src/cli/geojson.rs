@@ -37,8 +37,11 @@ pub(super) fn feature(geometry: &Value, properties: &Value) -> Value {
     json!({ "type": "Feature", "geometry": geometry, "properties": properties })
 }
 
-/// The geometry of a line in parts.
+/// The geometry of a line in parts; null if it is shorter than digits tell.
 pub(super) fn line<P: Place>(parts: &[Vec<P>]) -> Value {
+    if parts.is_empty() {
+        return Value::Null;
+    }
     let kind = if parts.len() == 1 { "LineString" } else { "MultiLineString" };
     json!({ "type": kind, "coordinates": shaped(parts, |point| json!(lon_lat_deg(point.place()))) })
 }
@@ -59,19 +62,27 @@ pub(super) fn rounded(value: f64, per_unit: f64) -> f64 {
     (value * per_unit).round() / per_unit
 }
 
-/// Cuts a line where it crosses the antimeridian. Both parts end there.
+/// Cuts a line where it crosses the antimeridian. Both parts end there. Points that are written as the one before are
+/// left out, and so is a part of which one point is left: a line that only touches the antimeridian has none beyond it.
 pub(super) fn parts<P: Place>(points: &[P]) -> Vec<Vec<P>> {
-    let mut parts = vec![Vec::new()];
+    let mut parts: Vec<Vec<P>> = vec![Vec::new()];
     let mut last: Option<P> = None;
+    let add = |parts: &mut Vec<Vec<P>>, point: P| {
+        let Some(part) = parts.last_mut() else { return };
+        if part.last().is_none_or(|before| lon_lat_deg(before.place()) != lon_lat_deg(point.place())) {
+            part.push(point);
+        }
+    };
     for &point in points {
         if let Some(before) = last.filter(|before| (point.place().lon_rad - before.place().lon_rad).abs() > PI) {
             let [end, start] = crossing(&before, &point);
-            parts.last_mut().into_iter().for_each(|part| part.push(end));
+            add(&mut parts, end);
             parts.push(vec![start]);
         }
-        parts.last_mut().into_iter().for_each(|part| part.push(point));
+        add(&mut parts, point);
         last = Some(point);
     }
+    parts.retain(|part| part.len() > 1);
     parts
 }
 
@@ -81,4 +92,38 @@ fn crossing<P: Place>(a: &P, b: &P) -> [P; 2] {
     let share = if from.y == to.y { 0.5 } else { (from.y / (from.y - to.y)).clamp(0.0, 1.0) };
     let lat_rad = LatLon::from_direction(from.lerp(to, share)).lat_rad;
     [a, b].map(|near| a.towards(b, share, LatLon { lat_rad, lon_rad: PI.copysign(near.place().lon_rad) }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(places: &[(f64, f64)]) -> Vec<Vec<[f64; 2]>> {
+        let line: Vec<LatLon> = places.iter().map(|&(lat, lon)| LatLon::from_degrees(lat, lon)).collect();
+        parts(&line).into_iter().map(|part| part.into_iter().map(lon_lat_deg).collect()).collect()
+    }
+
+    #[test]
+    fn parts_have_a_length_and_no_point_twice() {
+        // On the antimeridian itself, under both of its names, and next to it.
+        for middle in [180.0, -180.0, 179.999_999_9, -179.999_999_9] {
+            for end in [179.0, -179.0] {
+                let parts = shown(&[(1.0, 179.0), (2.0, middle), (2.0, middle), (3.0, end)]);
+                assert!(!parts.is_empty(), "{middle} {end}");
+                for part in &parts {
+                    assert!(
+                        part.len() > 1 && part.windows(2).all(|pair| pair[0] != pair[1]),
+                        "{middle} {end}: {parts:?}"
+                    );
+                    assert!(part.windows(2).all(|pair| (pair[0][0] - pair[1][0]).abs() < 180.0), "{parts:?}");
+                }
+                assert_eq!(
+                    [parts[0][0], parts[parts.len() - 1][parts[parts.len() - 1].len() - 1]],
+                    [[179.0, 1.0], [end, 3.0]]
+                );
+            }
+        }
+        assert_eq!(shown(&[(1.0, 5.0), (1.0, 5.000_000_01)]), Vec::<Vec<[f64; 2]>>::new());
+        assert_eq!(line::<LatLon>(&[]), Value::Null);
+    }
 }

@@ -3,7 +3,7 @@
 //! - `args`: parsers of sizes, angles and locations; `area`: arguments that bakes share
 //! - `render`, `film`, `check`, `sample`, `nearest`, `bake`, `mesh`, `tiles`, `rivers`, `coasts`, `maps`, `sky`,
 //!   `system`, `new`, `bench`: the subcommands
-//! - `geojson`: features and lines for `rivers` and `coasts`
+//! - `geojson`: features and lines for `rivers` and `coasts`; `polygons`: land and water from coasts
 //! - `points`: many points for `sample`
 //! - `work`: threads, and progress of long work
 //! - `headless`: a GPU without a window
@@ -28,6 +28,7 @@ mod mesh;
 mod nearest;
 mod new;
 mod points;
+mod polygons;
 mod render;
 mod rivers;
 mod sample;

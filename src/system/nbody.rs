@@ -170,18 +170,6 @@ impl Bodies {
     /// Seconds in which the pair that changes fastest would change wholly, and that pair: the least of
     /// (μ / r³ + v² / r²)^(-1/2). On a circle it is 0.11 of the period. Infinite if nothing attracts anything.
     pub fn pace_secs(&self) -> (f64, [usize; 2]) {
-        self.fastest(&|gravity, apart, speed_square| {
-            let square = apart.length_squared();
-            gravity / (square * square.sqrt()) + speed_square / square
-        })
-    }
-
-    /// As [`Bodies::pace_secs`], from the attraction alone: (μ / r³)^(-1/2).
-    pub fn fall_secs(&self) -> (f64, [usize; 2]) {
-        self.fastest(&|gravity, apart, _| gravity / (apart.length_squared() * apart.length()))
-    }
-
-    fn fastest(&self, rate_square: &dyn Fn(f64, DVec3, f64) -> f64) -> (f64, [usize; 2]) {
         let (mut most, mut pair) = (0.0, [0, 0]);
         for (i, a) in self.masses.iter().enumerate() {
             for (j, b) in self.masses[..i].iter().enumerate() {
@@ -189,10 +177,11 @@ impl Bodies {
                 if gravity == 0.0 || self.is_point(i) || self.is_point(j) {
                     continue;
                 }
+                let square = (b.position_m - a.position_m).length_squared();
                 let speed_square = (b.velocity - a.velocity).length_squared();
-                let rate = rate_square(gravity, b.position_m - a.position_m, speed_square);
-                if rate > most {
-                    (most, pair) = (rate, [j, i]);
+                let rate_square = gravity / (square * square.sqrt()) + speed_square / square;
+                if rate_square > most {
+                    (most, pair) = (rate_square, [j, i]);
                 }
             }
         }

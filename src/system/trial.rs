@@ -12,14 +12,13 @@ use super::{Ephemeris, System, YEAR_SECS, limits};
 pub const TRUSTED_ENERGY_ERROR: f64 = 1e-3;
 /// Most steps of a trial: some hours for a system of ten bodies.
 pub const MOST_STEPS: u64 = 1_000_000_000;
-/// Steps of a period of a circle, of even steps and of those that follow the motion.
-const STEPS_A_PERIOD: f64 = 200.0;
+/// Steps of a period of a circle that follow the motion.
 const FOLLOWING_STEPS_A_PERIOD: f64 = 36.0;
 /// Share of the pace of the fastest pair that a step takes.
 const SHARE_OF_PACE: f64 = 0.25;
 /// The pace of a circle as a share of its period.
 const PACE_OF_CIRCLE: f64 = 0.112_54;
-/// Factor by which bodies of an even step may turn faster than the orbits that the step was chosen for.
+/// Factor by which bodies may turn faster than an even step was chosen for.
 const MARGIN: f64 = 2.0;
 
 /// A trial that can be run: a valid system, the radius of each body in metres, 0 where it is unknown, and how to go.
@@ -144,6 +143,15 @@ impl Scheme {
             Scheme::Yoshida6 => 1.0 / 3.0,
         }
     }
+
+    /// A step that suits, as such a share: a part of the period of a circle, or what follows the motion.
+    fn suiting(self) -> f64 {
+        match self {
+            Scheme::Radau15 => SHARE_OF_PACE,
+            Scheme::Verlet => 1.0 / (1000.0 * PACE_OF_CIRCLE),
+            Scheme::Yoshida6 => 1.0 / (200.0 * PACE_OF_CIRCLE),
+        }
+    }
 }
 
 impl<'a> Plan<'a> {
@@ -161,10 +169,7 @@ impl<'a> Plan<'a> {
     ) -> Result<Self, String> {
         let (pace_secs, fastest) = shortest_pace(system);
         let longest_secs = scheme.longest() * pace_secs;
-        let suiting_secs = match scheme {
-            Scheme::Radau15 => longest_secs,
-            Scheme::Verlet | Scheme::Yoshida6 => pace_secs / PACE_OF_CIRCLE / STEPS_A_PERIOD,
-        };
+        let suiting_secs = scheme.suiting() * pace_secs;
         let name = &system.bodies[fastest].name;
         if step_secs.is_some_and(|step_secs| !(step_secs > 0.0 && step_secs <= longest_secs)) {
             return Err(format!(
@@ -183,10 +188,10 @@ impl<'a> Plan<'a> {
         };
         if secs / mean_secs > MOST_STEPS as f64 {
             return Err(format!(
-                "{} years take {:.0e} steps, because the orbit of {name} is short; use at most {:.3} years",
+                "{} years take {:.0e} steps, because the orbit of {name} is short; use at most {} years",
                 secs / YEAR_SECS,
                 secs / mean_secs,
-                mean_secs * MOST_STEPS as f64 / YEAR_SECS
+                rounded_down(mean_secs * MOST_STEPS as f64 / YEAR_SECS)
             ));
         }
         Ok(Self { system, radii_m, scheme, secs, step_secs, most_steps: MOST_STEPS })
@@ -225,7 +230,7 @@ impl<'a> Plan<'a> {
             if trial.steps == self.most_steps {
                 break Ending::TooManySteps(bodies.pace_secs().1);
             }
-            let step_secs = self.next_secs(&bodies, &mut trial.unfollowed).min(left_secs);
+            let step_secs = self.next_secs(&bodies).min(left_secs);
             before.clear();
             before.extend_from_slice(bodies.masses());
             let passed_secs = bodies.step(self.scheme, step_secs);
@@ -239,6 +244,10 @@ impl<'a> Plan<'a> {
             watch.look(&bodies, &before, passed_secs, &mut trial.events);
             let collision = trial.events[known..].iter().find(|event| event.kind == EventKind::Collision);
             trial.secs = collision.map_or(bodies.time_secs(), |event| event.time_secs);
+            if trial.unfollowed.is_none() && collision.is_none() {
+                let pair = self.unfollowed(&bodies, &before, passed_secs);
+                trial.unfollowed = pair.map(|pair| (bodies.time_secs(), pair));
+            }
             // After a collision the bodies fell through each other until the end of the step.
             if collision.is_none() {
                 trial.energy_error = trial.energy_error.max(energy_error);
@@ -251,18 +260,28 @@ impl<'a> Plan<'a> {
         trial
     }
 
-    /// Seconds of the next step. Notes the first pair that an even step does not follow.
-    fn next_secs(&self, bodies: &Bodies, unfollowed: &mut Option<(f64, [usize; 2])>) -> f64 {
+    /// Seconds of the next step.
+    fn next_secs(&self, bodies: &Bodies) -> f64 {
+        match self.scheme {
+            Scheme::Radau15 => self.step_secs.min(SHARE_OF_PACE * bodies.pace_secs().0),
+            Scheme::Verlet | Scheme::Yoshida6 => self.step_secs,
+        }
+    }
+
+    /// The first pair that comes nearer to each other within an even step than it follows: that takes longer than a part
+    /// of the fall towards each other, (r³ / μ)^(1/2).
+    fn unfollowed(&self, bodies: &Bodies, before: &[Mass], step_secs: f64) -> Option<[usize; 2]> {
         if self.scheme == Scheme::Radau15 {
-            return self.step_secs.min(SHARE_OF_PACE * bodies.pace_secs().0);
+            return None;
         }
-        if unfollowed.is_none() {
-            let (fall_secs, pair) = bodies.fall_secs();
-            if self.step_secs > MARGIN * self.scheme.longest() * fall_secs {
-                *unfollowed = Some((bodies.time_secs(), pair));
-            }
-        }
-        self.step_secs
+        let (masses, fall_secs) = (bodies.masses(), step_secs / (MARGIN * self.scheme.longest()));
+        let is_near = |[a, b]: &[usize; 2]| {
+            let near_m = libm::cbrt((masses[*a].gravity + masses[*b].gravity) * fall_secs * fall_secs);
+            Sweep::new([[before[*a], before[*b]], [masses[*a], masses[*b]]], step_secs).first_within(near_m).is_some()
+        };
+        let real = |body: &usize| !bodies.is_point(*body);
+        let pairs = (0..masses.len()).filter(real).flat_map(|b| (0..b).filter(real).map(move |a| [a, b]));
+        pairs.into_iter().find(is_near)
     }
 }
 
@@ -292,13 +311,15 @@ fn shortest_period_secs(system: &System) -> f64 {
     orbits.map(super::kepler::Ellipse::period_secs).fold(f64::INFINITY, f64::min)
 }
 
-/// A time in hours, with digits that tell it from its neighbours.
+/// A time in hours.
 fn hours(secs: f64) -> String {
-    let hours = secs / 3600.0;
-    // Rounded down: what is named as the most must be allowed.
-    let digits = (2.0 - libm::log10(hours.max(1e-300)).floor()).clamp(0.0, 300.0);
-    let scale = libm::pow(10.0, digits);
-    format!("{} hours", (hours * scale).floor() / scale)
+    format!("{} hours", rounded_down(secs / 3600.0))
+}
+
+/// A number to three digits, never more than it is: what is named as the most must be allowed.
+fn rounded_down(value: f64) -> f64 {
+    let scale = libm::pow(10.0, (2.0 - libm::floor(libm::log10(value.max(1e-300)))).clamp(0.0, 300.0));
+    (value * scale).floor() / scale
 }
 
 /// What is looked for in each step.
@@ -405,6 +426,7 @@ mod tests {
 
     #[test]
     fn times_are_told_with_three_digits_and_never_too_long() {
+        assert_eq!(rounded_down(3.168_8), 3.16);
         for (secs, told) in [(3600.0 * 2.3499, "2.34 hours"), (3600.0 * 1234.5, "1234 hours"), (3.6, "0.001 hours")] {
             assert_eq!(hours(secs), told);
         }

@@ -1,6 +1,7 @@
 //! Tests of the command line, run as a process, of the README's promises, and of the repository's own rules.
 //!
 //! - `bake`: maps against `tellus sample`; `decode`: readers of their files; `baked_edits`: ground edits as a picture
+//! - `coasts`: coasts as lines and polygons
 //! - `commands`: answers, messages, exit status
 //! - `disk`: disks that are full or read-only
 //! - `sets`: sets of files: damaged, finished, incomplete; threads and progress
@@ -10,12 +11,14 @@
 //! - `fuzz`: random command lines
 //! - `house`: the length of files and comments
 //! - `hostile`: broken and oversized files
+//! - `interface`: what docs/commands.md promises, against `--help`
 //! - `system`: systems of planets
 //! - `readme`: the README's examples, presets and pictures
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 mod bake;
 mod baked_edits;
+mod coasts;
 mod commands;
 mod decode;
 #[cfg(target_os = "linux")]
@@ -24,6 +27,7 @@ mod fuzz;
 #[cfg(unix)]
 mod hostile;
 mod house;
+mod interface;
 mod mesh;
 mod readback;
 mod readme;

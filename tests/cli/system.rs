@@ -44,6 +44,72 @@ fn a_trial_tells_whether_a_system_lasts() {
     );
     let (status, out, _) = run(&["system", &file, "--trial", "3", "--scheme", "verlet", "--step", "6"]);
     assert!(status == 0 && out.contains("(Hill)") && out.contains("Moon leaves One"), "{out}");
+    // A step that does not suit is wrong input, and nothing else is said.
+    let (status, out, err) = run(&["system", "systems/hearth.ron", "--trial", "1", "--step", "2000"]);
+    assert!(status == 1 && out.is_empty() && err.contains("too long for the orbit of Hoarfrost; use "), "{out}{err}");
+    let (status, _, err) = run(&["system", "systems/hearth.ron", "--trial", "1e6"]);
+    assert!(status == 1 && err.contains("the orbit of Hoarfrost is short; use at most "), "{err}");
+    // The longest Verlet step that is taken loses too much energy on a long ellipse.
+    let file = written(
+        folder.path(),
+        "(name: \"One\", preset: \"one.ron\", parent: \"Sun\", orbit: (eccentricity: 0.9, anomaly_deg: 180.0)),",
+    );
+    let coarse = ["system", &file, "--trial", "2", "--scheme", "verlet", "--step"];
+    let (status, out, err) = run(&[&coarse[..], &["2.1"]].concat());
+    assert!(status == 1 && err.contains("error: the trial is not to be trusted: the energy is off by"), "{out}{err}");
+    assert!(!out.contains("no encounter") && out.contains("energy error at most"), "{out}");
+    let (status, out, err) = run(&["system", &file, "--trial", "2"]);
+    assert!(status == 0 && out.contains("no encounter") && err.is_empty(), "{out}{err}");
+}
+
+#[test]
+fn json_has_positions_and_velocities_in_the_frame_of_the_system() {
+    let read = |args: &[&str]| -> serde_json::Value {
+        let (status, out, err) = run(args);
+        assert_eq!((status, err.as_str()), (0, ""));
+        serde_json::from_str(&out).unwrap()
+    };
+    let found = read(&["system", "systems/hearth.ron", "--time", "86400", "--json"]);
+    assert_eq!(found.as_object().unwrap().keys().collect::<Vec<_>>(), ["bodies"]);
+    let poses =
+        tellus::system::Ephemeris::new(&tellus::system::System::load("systems/hearth.ron").unwrap()).at(86_400.0);
+    let bodies = found["bodies"].as_array().unwrap();
+    assert_eq!(bodies.len(), poses.len());
+    for (body, pose) in bodies.iter().zip(&poses) {
+        assert_eq!(body.as_object().unwrap().len(), 4);
+        assert_eq!(body["position_m"], serde_json::json!(pose.position_m.to_array()));
+        assert_eq!(body["velocity_m_s"], serde_json::json!(pose.velocity.to_array()));
+    }
+    assert_eq!((&bodies[0]["name"], &bodies[0]["parent"]), (&"Hearth".into(), &serde_json::Value::Null));
+    assert_eq!((&bodies[3]["name"], &bodies[3]["parent"]), (&"Pallor".into(), &"Aurel".into()));
+    let trial = &read(&["system", "systems/hearth.ron", "--trial", "0.2", "--json"])["trial"];
+    assert_eq!((&trial["years"], &trial["trusted"], &trial["ending"]), (&0.2.into(), &true.into(), &"whole".into()));
+    assert!(trial["energy_error"].as_f64().unwrap() < 1e-12 && trial["bodies"].as_array().unwrap().len() == 8);
+}
+
+/// Ctrl+C ends a long trial with what it came to.
+#[test]
+#[cfg(unix)]
+fn a_trial_can_be_stopped() {
+    let mut program = std::process::Command::new(assert_cmd::cargo::cargo_bin!("tellus"));
+    program.env("TELLUS_MAPS", "").current_dir(env!("CARGO_MANIFEST_DIR"));
+    program.args(["system", "systems/hearth.ron", "--trial", "100000", "--json"]).stdout(std::process::Stdio::piped());
+    let child = program.spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(4));
+    let sent = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert!(sent.success() && output.status.success(), "{}", output.status);
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(found["trial"]["ending"], "stopped");
+}
+
+#[test]
+fn bodies_at_one_place_are_refused_where_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = |name: &str| format!("(name: \"{name}\", preset: \"one.ron\", parent: \"Sun\", orbit: ()),");
+    let file = written(folder.path(), &format!("{}\n{}", body("One"), body("Two")));
+    let (status, _, err) = run(&["check", &file]);
+    assert!(status == 1 && err.contains("system.ron:6:") && err.contains("`Two` and `One` are at one place"), "{err}");
 }
 
 #[test]

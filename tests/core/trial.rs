@@ -79,16 +79,17 @@ fn planets_that_meet_head_on_collide_whatever_the_step() {
     for scheme in SCHEMES {
         let trial = run(&head_on(), scheme, 1.0);
         assert_eq!(trial.ending, Ending::Collision, "{scheme:?}");
+        assert!(trial.doubts(&head_on()).is_empty(), "{scheme:?}");
         let last = trial.events.last().unwrap();
         assert_eq!((last.bodies, last.kind), ([2, 1], EventKind::Collision));
         let years = last.time_secs / YEAR_SECS;
-        assert!((years - HEAD_ON_YEARS).abs() < 1e-4, "{scheme:?}: {years}");
+        assert!((years - HEAD_ON_YEARS).abs() < 1e-5, "{scheme:?}: {years}");
         assert_eq!(trial.secs, last.time_secs);
     }
 }
 
-/// Rebound 5.2.2, IAS15, collision search along lines.
-const HEAD_ON_YEARS: f64 = 0.376_6;
+/// Rebound 5.2.2: leapfrog by 60 s, collisions along lines.
+const HEAD_ON_YEARS: f64 = 0.376_517;
 
 #[test]
 fn bodies_at_one_place_are_refused_with_their_place() {
@@ -118,7 +119,7 @@ fn a_trial_of_bodies_at_one_place_claims_nothing() {
     for scheme in SCHEMES {
         let trial = run(&system, scheme, 1.0);
         assert_eq!((trial.ending, trial.secs), (Ending::Collision, 0.0), "{scheme:?}");
-        // Without sizes nothing collides, and the attraction is no number.
+        // Without sizes nothing touches, and the attraction is no number.
         let plan = Plan::new(&system, &[0.0; 3], scheme, YEAR_SECS, None).unwrap();
         let trial = plan.run(&mut |_, _| true);
         assert_eq!(trial.ending, Ending::Lost, "{scheme:?}");
@@ -234,7 +235,7 @@ fn positions_after_a_year_are_those_of_rebound() {
         let off_m = (mass.position_m - DVec3::from_array(expected_m)).length();
         assert!(off_m < HEARTH_OFF_M, "{}: {off_m} m", body.name);
     }
-    // Earth's year about the Sun, 20 AU apart from everything: also by Kepler.
+    // A near moon is still on its orbit.
     let moon = system.find("Hoarfrost").unwrap();
     let garland = system.find("Garland").unwrap();
     let away_m = trial.masses[moon].position_m - trial.masses[garland].position_m;
@@ -245,11 +246,20 @@ fn positions_after_a_year_are_those_of_rebound() {
 }
 
 /// Positions of the bodies of Hearth after a Julian year: rebound 5.2.2, IAS15, from the same start.
-const HEARTH_M: [[f64; 3]; 8] = [[0.0; 3]; 8];
+const HEARTH_M: [[f64; 3]; 8] = [
+    [-14743722.496157104, 257409829.3058334, -2430958.4439220326],
+    [-107978185362.36958, -44513808082.79388, 2072585088.4658422],
+    [-26373385061.578033, 144988835800.5388, -2496171.3024158305],
+    [-26167229952.9873, 144641331579.2321, -11536552.711613864],
+    [-246435039818.27066, -8293158339.280757, 5879730150.538696],
+    [52720272929.30749, -901299399691.7087, 8481380825.62203],
+    [52426854958.32722, -901004890861.6923, 8536124941.377379],
+    [53365653623.22658, -900556991586.3214, 8072247218.825679],
+];
 const HEARTH_OFF_M: f64 = 10.0;
 
 /// What rebound makes of masses: how it ended, when, and the positions.
-fn judged(masses: &[Mass], radii_m: &[f64], secs: f64) -> Option<(String, f64, Vec<DVec3>)> {
+fn judged(masses: &[Mass], radii_m: &[f64], secs: f64, step: Option<&str>) -> Option<(String, f64, Vec<DVec3>)> {
     let python = std::env::var("TELLUS_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     let is_there = Command::new(&python).args(["-c", "import rebound"]).stderr(Stdio::null()).status();
     if !is_there.is_ok_and(|status| status.success()) {
@@ -262,7 +272,8 @@ fn judged(masses: &[Mass], radii_m: &[f64], secs: f64) -> Option<(String, f64, V
         input += &(row.join(" ") + "\n");
     }
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/rebound_trial.py");
-    let mut child = Command::new(&python).arg(script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut child =
+        Command::new(&python).arg(script).args(step).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success());
@@ -298,7 +309,8 @@ fn trials_are_judged_by_rebound() {
     ];
     for (name, system, years) in cases {
         let (start, radii_m) = (Bodies::of(&system), radii_m(&system));
-        let Some((ending, secs, places_m)) = judged(start.masses(), &radii_m, years * YEAR_SECS) else {
+        let step = (name == "head on").then_some("60");
+        let Some((ending, secs, places_m)) = judged(start.masses(), &radii_m, years * YEAR_SECS, step) else {
             println!("counted: rebound is not installed");
             return;
         };
@@ -306,13 +318,13 @@ fn trials_are_judged_by_rebound() {
         let off_m = trial.masses.iter().zip(&places_m).map(|(mass, place_m)| (mass.position_m - *place_m).length());
         let off_m = off_m.fold(0.0, f64::max);
         println!("counted: {name}: {ending} after {:.6} years, off by {off_m:.1e} m", secs / YEAR_SECS);
-        if name == "hearth" || name == "a planet that meets another" {
+        if name == "hearth" {
             println!("{:?}", places_m.iter().map(|place_m| place_m.to_array()).collect::<Vec<_>>());
         }
         match trial.ending {
             Ending::Collision => {
                 assert_eq!(ending, "collision", "{name}");
-                assert!((secs - trial.secs).abs() < 2e-4 * years * YEAR_SECS, "{name}: {secs} {}", trial.secs);
+                assert!((secs - trial.secs).abs() < 300.0, "{name}: {secs} {}", trial.secs);
             }
             _ => assert!(ending == "end" && off_m < 1e4, "{name}: {ending}, {off_m} m"),
         }

@@ -347,8 +347,14 @@ impl MeshBake {
         if self.is_quantized && self.format != MeshFormat::Glb {
             return Err("an OBJ holds no whole numbers of 16 bits; use .glb".to_owned());
         }
-        if !(self.skirt_m.is_finite() && self.skirt_m >= 0.0) {
-            return Err(format!("a skirt of {} m is out of range; use 0 or more", self.skirt_m));
+        // Deeper ones would meet in the planet's centre; whole numbers would lose their digits to them.
+        let half_m = 0.5 * planet.radius_m();
+        let (most_m, what) = match self.is_quantized {
+            true => (half_m.min(side_m(&self.area, planet.radius_m())), "the side of a quantized square"),
+            false => (half_m, "half the planet's radius"),
+        };
+        if !(0.0..=most_m).contains(&self.skirt_m) {
+            return Err(format!("a skirt of {} m is out of range; use 0 to {most_m}, {what} at most", self.skirt_m));
         }
         if !(self.scale.is_finite() && self.scale > 0.0) {
             return Err(format!("a scale of {} is out of range; use more than 0", self.scale));

@@ -243,6 +243,8 @@ fn what_cannot_be_made_is_refused() {
         (MeshBake { area: far, ..whole.clone() }, "a region of 1000000 km is out of range"),
         (MeshBake { texture_px: Some(20_000), ..whole.clone() }, "use 2 to 11585"),
         (MeshBake { skirt_m: -1.0, ..whole.clone() }, "skirt of -1 m"),
+        (MeshBake { skirt_m: 1e12, ..whole.clone() }, "half the planet's radius at most"),
+        (MeshBake { skirt_m: 1e12, is_quantized: true, ..whole.clone() }, "the side of a quantized square at most"),
         (MeshBake { scale: 0.0, ..whole.clone() }, "scale of 0"),
     ] {
         let error = mesh.run(&terrain, &path, &|_| true).unwrap_err().to_string();
