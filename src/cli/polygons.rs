@@ -1,8 +1,8 @@
 //! Land and water as polygons (RFC 7946) from closed lines of equal height.
 //!
 //! On the plane of longitude and latitude the globe is a rectangle. Lines that cross the antimeridian are cut there.
-//! A cut line goes on along the border of the rectangle, anticlockwise, to the beginning of the next one: what is to the
-//! left stays to the left. So a polygon may have edges at longitudes -180 and 180 and, around a pole, at latitudes -90
+//! A cut line goes on along the border of the rectangle, anticlockwise, to the beginning of the next one: what is to
+//! the left stays to the left. So a polygon may have edges at longitudes -180 and 180 and, around a pole, at latitudes -90
 //! and 90.
 
 use super::geojson::{lon_lat_deg, parts};
@@ -56,8 +56,8 @@ impl Lines {
         all
     }
 
-    /// The polygons to the left of the lines, or to their right. `is_all`: whether all of the globe is, where there is no
-    /// line.
+    /// The polygons to the left of the lines, or to their right. `is_all`: whether all of the globe is, where there is
+    /// no line.
     pub(super) fn polygons(&self, to_the_left: bool, is_all: bool) -> Vec<Polygon> {
         let turned = |line: &Vec<Place>| match to_the_left {
             true => line.clone(),
@@ -190,7 +190,7 @@ mod tests {
             square(10.0, 20.0, 1.0),
             square(-30.0, 0.0, 2.0),
         ];
-        // Land: an island with a lake, an island in the lake, another. Water: the sea with two holes, the lake with one.
+        // Land: an island with a lake, an island in the lake, another. Water: the sea and the lake with their islands.
         assert_eq!(counts(&sides(&lines, false)), [vec![2, 1, 1], vec![3, 2]]);
     }
 

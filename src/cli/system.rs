@@ -42,9 +42,9 @@ pub(super) struct Args {
     /// Scheme of the trial. radau15 has steps that follow the motion, the others have even steps
     #[arg(long, value_enum, requires = "trial", default_value_t = Scheme::default())]
     scheme: Scheme,
-    /// Print a JSON object: bodies, each with name, parent (null at the root), position_m and velocity_m_s, about the body
-    /// at the root; with --trial also trial: years, steps, energy_error, trusted, doubts, ending, events, and bodies at
-    /// its end, about the common centre of mass. Warnings go to standard error
+    /// Print a JSON object: bodies, each with name, parent (null at the root), position_m and velocity_m_s, about the
+    /// body at the root; with --trial also trial: years, steps, energy_error, trusted, doubts, ending, events, and
+    /// bodies at its end, about the common centre of mass. Warnings go to standard error
     #[arg(long)]
     json: bool,
 }

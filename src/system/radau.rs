@@ -2,9 +2,9 @@
 //!
 //! Everhart, An efficient integrator that uses Gauss-Radau spacings, 1985; compensated sums and the test of
 //! convergence as in Rein and Spiegel, IAS15, MNRAS 446, 2015. Within a step the acceleration of each body is a
-//! polynomial of 7th degree of the share of the step, found by iteration at seven nodes. Unlike theirs, the step follows
-//! from the state of all pairs ([`Bodies::pace_secs`](super::nbody::Bodies::pace_secs)): a moon is followed as well as
-//! a planet, however small its part of the attraction.
+//! polynomial of 7th degree of the share of the step, found by iteration at seven nodes. Unlike theirs, the step
+//! follows from the state of all pairs ([`Bodies::pace_secs`](super::nbody::Bodies::pace_secs)): a moon is followed as
+//! well as a planet, however small its part of the attraction.
 
 use super::nbody::Mass;
 use glam::DVec3;
@@ -20,7 +20,7 @@ const NODES: [f64; 8] = [
     0.885_320_946_839_095_8,
     0.977_520_613_561_287_5,
 ];
-/// Coefficients of the powers of the share, from the first, in Newton's polynomials: s, s (s - s1), s (s - s1) (s - s2)...
+/// Coefficients of the powers of the share, from the first, in Newton's polynomials: s, s (s - s1) and so on.
 const NEWTON: [[f64; 7]; 7] = newton();
 /// Binomial coefficients.
 const CHOOSE: [[f64; 8]; 8] = choose();

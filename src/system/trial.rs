@@ -268,8 +268,8 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The first pair that comes nearer to each other within an even step than it follows: that takes longer than a part
-    /// of the fall towards each other, (r³ / μ)^(1/2).
+    /// The first pair that comes nearer to each other within an even step than it follows: that takes longer than a
+    /// part of the fall towards each other, (r³ / μ)^(1/2).
     fn unfollowed(&self, bodies: &Bodies, before: &[Mass], step_secs: f64) -> Option<[usize; 2]> {
         if self.scheme == Scheme::Radau15 {
             return None;

@@ -1,5 +1,5 @@
-//! The interface of the command line in docs/commands.md is that of `--help`. Run with `TELLUS_BLESS=1` to write its list
-//! of options anew.
+//! The interface of the command line in docs/commands.md is that of `--help`. Run with `TELLUS_BLESS=1` to write its
+//! list of options anew.
 
 use std::path::PathBuf;
 
