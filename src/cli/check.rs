@@ -33,7 +33,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 fn checked(file: &Path) -> Result<(), LoadError> {
     let text = read_text(file)?;
     if System::is_system(&text) {
-        return System::from_text(&file.display().to_string(), &text)?.load_planets(file).map(|_| ());
+        let system = System::from_text(&file.display().to_string(), &text)?;
+        return system.check_places(file, &system.load_planets(file)?);
     }
     Planet::load(file).map(|_| ())
 }

@@ -148,36 +148,52 @@ impl System {
         }
         // Only bodies that have orbits have places.
         if found.is_empty() {
-            self.problems_of_places(&mut found);
+            found = self.problems_of_places(&|_| None);
         }
         found
     }
 
-    /// Bodies that are at one place at time zero: nearer to each other than the least sizes that they can have.
-    fn problems_of_places(&self, found: &mut Vec<(ParamPath, String)>) {
-        let bodies = super::nbody::Bodies::of(self);
-        let masses = bodies.masses();
-        let least_m = |body: &Member| body.light.as_ref().map_or(LEAST_RADIUS_M, super::Light::radius_m);
-        for (number, body) in self.bodies.iter().enumerate().filter(|(_, body)| !body.is_point()) {
-            let others = self.bodies[..number].iter().enumerate().filter(|(_, other)| !other.is_point());
-            for (before, other) in others {
-                let apart_m = (masses[number].position_m - masses[before].position_m).length();
-                let touch_m = least_m(body) + least_m(other);
-                // A distance that is no number is none.
-                if !(apart_m >= touch_m) {
-                    let field = if body.orbit.is_some() { "orbit" } else { "start" };
-                    let (a, b) = (&body.name, &other.name);
-                    let message = format!(
-                        "`{a}` and `{b}` are at one place at time zero: their centres are {:.3} km apart, and their \
-                         sizes ask for {:.0} km; use another orbit or anomaly_deg",
-                        apart_m / 1000.0,
-                        touch_m / 1000.0
-                    );
-                    found.push((path_of(number, field), message));
-                    break;
-                }
-            }
+    /// Whether bodies overlap at time zero, with the sizes of their planets. `file`: the system file; `planets`: as of
+    /// [`System::load_planets`].
+    ///
+    /// # Errors
+    /// The bodies that do, at their places in the file.
+    pub fn check_places(&self, file: &Path, planets: &[Option<std::sync::Arc<Planet>>]) -> Result<(), LoadError> {
+        let radius_m = |body: usize| planets.get(body)?.as_ref().map(|planet| planet.radius_m());
+        let problems = self.problems_of_places(&radius_m);
+        if problems.is_empty() {
+            return Ok(());
         }
+        Err(all_placed(&file.display().to_string(), &read_text(file).unwrap_or_default(), problems))
+    }
+
+    /// Bodies that are at one place at time zero. `radius_m`: of a planet; None for the least that it can have.
+    fn problems_of_places(&self, radius_m: &dyn Fn(usize) -> Option<f64>) -> Vec<(ParamPath, String)> {
+        let poses = super::Ephemeris::new(self).at(0.0);
+        let size_m = |body: usize| match &self.bodies[body].light {
+            Some(light) => light.radius_m(),
+            None => radius_m(body).unwrap_or(LEAST_RADIUS_M),
+        };
+        let real: Vec<usize> = (0..self.bodies.len()).filter(|body| !self.bodies[*body].is_point()).collect();
+        let mut found = Vec::new();
+        for (count, &body) in real.iter().enumerate() {
+            let apart_m = |other: usize| (poses[body].position_m - poses[other].position_m).length();
+            // A distance that is no number is none.
+            let touches =
+                |other: &&usize| apart_m(**other).is_nan() || apart_m(**other) < size_m(body) + size_m(**other);
+            let Some(&other) = real[..count].iter().find(touches) else { continue };
+            let field = if self.bodies[body].orbit.is_some() { "orbit" } else { "start" };
+            let message = format!(
+                "`{}` and `{}` are at one place at time zero: their centres are {:.3} km apart, and their sizes ask for \
+                 {:.0} km; use another orbit or anomaly_deg",
+                self.bodies[body].name,
+                self.bodies[other].name,
+                apart_m(other) / 1000.0,
+                (size_m(body) + size_m(other)) / 1000.0
+            );
+            found.push((path_of(body, field), message));
+        }
+        found
     }
 
     fn problems_of(&self, number: usize, found: &mut Vec<(ParamPath, String)>) {

@@ -12,9 +12,9 @@ use glam::DVec3;
 /// Nodes of the step, as shares of it: zero, and the roots of the Radau polynomial.
 const NODES: [f64; 8] = [
     0.0,
-    0.056_262_560_536_922_146,
-    0.180_240_691_736_892_37,
-    0.352_624_717_113_169_64,
+    0.056_262_560_536_922_15,
+    0.180_240_691_736_892_36,
+    0.352_624_717_113_169_6,
     0.547_153_626_330_555_4,
     0.734_210_177_215_410_5,
     0.885_320_946_839_095_8,
@@ -22,7 +22,7 @@ const NODES: [f64; 8] = [
 ];
 /// Coefficients of the powers of the share, from the first, in Newton's polynomials: s, s (s - s1) and so on.
 const NEWTON: [[f64; 7]; 7] = newton();
-/// Binomial coefficients.
+/// Binomial coefficients: the number of choices of `k` from `n` in row `k`, column `n`.
 const CHOOSE: [[f64; 8]; 8] = choose();
 /// Most iterations of a step, and the change of the last coefficient, as a share of the acceleration, that ends them.
 const MOST_ITERATIONS: usize = 12;
@@ -52,16 +52,19 @@ const fn choose() -> [[f64; 8]; 8] {
     let mut all = [[0.0; 8]; 8];
     let mut n = 0;
     while n < 8 {
-        all[n][0] = 1.0;
+        all[0][n] = 1.0;
         let mut k = 1;
         while k <= n {
-            all[n][k] = all[n - 1][k - 1] + all[n - 1][k];
+            all[k][n] = all[k - 1][n - 1] + all[k][n - 1];
             k += 1;
         }
         n += 1;
     }
     all
 }
+
+/// Gives the accelerations of masses at positions.
+pub(super) type Attract<'a> = dyn Fn(&[Mass], &[DVec3], &mut [DVec3]) + 'a;
 
 /// A polynomial of the share of a step, without its constant: coefficients from the first power on.
 type Polynomial = [DVec3; 7];
@@ -88,12 +91,7 @@ pub(super) struct Radau {
 impl Radau {
     /// Moves masses on by a step. `attract` gives the accelerations at positions. Gives false, and leaves the masses
     /// where they are, if the step is too long for the iteration.
-    pub(super) fn step(
-        &mut self,
-        masses: &mut [Mass],
-        step_secs: f64,
-        attract: &dyn Fn(&[Mass], &[DVec3], &mut [DVec3]),
-    ) -> bool {
+    pub(super) fn step(&mut self, masses: &mut [Mass], step_secs: f64, attract: &Attract<'_>) -> bool {
         self.kept.resize(masses.len(), Kept::default());
         let mut positions_m: Vec<DVec3> = masses.iter().map(|mass| mass.position_m).collect();
         let mut start = vec![DVec3::ZERO; masses.len()];
@@ -122,8 +120,10 @@ impl Radau {
                         *coefficient += more * NEWTON[node - 1][power];
                     }
                     let share = more.length() / now[body].length().max(f64::MIN_POSITIVE);
-                    // A share that is no number counts as no convergence.
-                    change = if share <= change { change } else { share };
+                    // A share that is no number stays: there is no convergence.
+                    if share.is_nan() || share > change {
+                        change = share;
+                    }
                 }
             }
             if change < CONVERGED || (iteration > 1 && change >= last) {
@@ -132,7 +132,7 @@ impl Radau {
             last = change;
         }
         // Near the digits of f64 the change wavers; above, the iteration has not found a polynomial.
-        if !(change.min(last) < DIVERGED) {
+        if change.is_nan() || change.min(last) >= DIVERGED {
             return false;
         }
         for (body, mass) in masses.iter_mut().enumerate() {
@@ -157,9 +157,9 @@ impl Kept {
             return next;
         }
         let mut scale = 1.0;
-        for power in 1..=7 {
+        for (power, choose) in CHOOSE.iter().enumerate().skip(1) {
             scale *= growth;
-            let shifted: DVec3 = (power..=7).map(|from| self.found[from - 1] * CHOOSE[from][power]).sum();
+            let shifted: DVec3 = (power..=7).map(|from| self.found[from - 1] * choose[from]).sum();
             next.foretold[power - 1] = shifted * scale;
             next.found[power - 1] = next.foretold[power - 1] + (self.found[power - 1] - self.foretold[power - 1]);
         }

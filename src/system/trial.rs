@@ -122,7 +122,7 @@ impl Trial {
             Ending::Whole | Ending::Stopped | Ending::Collision => {}
         }
         // An error that is no number is too large.
-        if !(self.energy_error <= TRUSTED_ENERGY_ERROR) {
+        if self.energy_error.is_nan() || self.energy_error > TRUSTED_ENERGY_ERROR {
             let error = self.energy_error;
             doubts.push(format!("the energy is off by {error:.1e}; more than {TRUSTED_ENERGY_ERROR:.0e} is too much"));
         }
@@ -171,7 +171,7 @@ impl<'a> Plan<'a> {
         let longest_secs = scheme.longest() * pace_secs;
         let suiting_secs = scheme.suiting() * pace_secs;
         let name = &system.bodies[fastest].name;
-        if step_secs.is_some_and(|step_secs| !(step_secs > 0.0 && step_secs <= longest_secs)) {
+        if step_secs.is_some_and(|step_secs| step_secs <= 0.0 || step_secs.is_nan() || step_secs > longest_secs) {
             return Err(format!(
                 "a step of {} is too long for the orbit of {name}; use {} or less, {} suits",
                 hours(step_secs.unwrap_or_default()),

@@ -110,6 +110,12 @@ fn bodies_at_one_place_are_refused_where_they_are() {
     let file = written(folder.path(), &format!("{}\n{}", body("One"), body("Two")));
     let (status, _, err) = run(&["check", &file]);
     assert!(status == 1 && err.contains("system.ron:6:") && err.contains("`Two` and `One` are at one place"), "{err}");
+    // Apart, but not as far as their sizes.
+    let moon =
+        "(name: \"Moon\", preset: \"two.ron\", parent: \"One\", mass_earths: 0.01, orbit: (semi_major_km: 9000.0)),";
+    let file = written(folder.path(), &format!("{}\n{moon}", body("One")));
+    let (status, _, err) = run(&["check", &file]);
+    assert!(status == 1 && err.contains("9000.000 km apart, and their sizes ask for 12742 km"), "{err}");
 }
 
 #[test]
