@@ -44,7 +44,8 @@ pub(super) struct Args {
     /// on, linked by MSFT_lod in a .glb
     #[arg(long, value_name = "N", default_value = "1")]
     lods: u32,
-    /// Depth of skirts around the squares, which hide gaps between levels of detail
+    /// Depth of skirts around the squares, which hide gaps between levels of detail: at most half the planet's radius,
+    /// and with --quantize a side of a square
     #[arg(long, value_name = "METRES", default_value = "0", value_parser = args::depth)]
     skirt: f64,
     /// Units of the file in a metre, such as 0.001 for kilometres

@@ -309,13 +309,18 @@ fn trials_are_judged_by_rebound() {
     ];
     for (name, system, years) in cases {
         let (start, radii_m) = (Bodies::of(&system), radii_m(&system));
+        // Rebound knows no points.
+        let real: Vec<usize> = (0..radii_m.len()).filter(|body| !start.is_point(*body)).collect();
         let step = (name == "head on").then_some("60");
-        let Some((ending, secs, places_m)) = judged(start.masses(), &radii_m, years * YEAR_SECS, step) else {
+        let masses: Vec<Mass> = real.iter().map(|body| start.masses()[*body]).collect();
+        let sizes_m: Vec<f64> = real.iter().map(|body| radii_m[*body]).collect();
+        let Some((ending, secs, places_m)) = judged(&masses, &sizes_m, years * YEAR_SECS, step) else {
             println!("counted: rebound is not installed");
             return;
         };
         let trial = run(&system, Scheme::default(), years);
-        let off_m = trial.masses.iter().zip(&places_m).map(|(mass, place_m)| (mass.position_m - *place_m).length());
+        let off_m =
+            real.iter().zip(&places_m).map(|(body, place_m)| (trial.masses[*body].position_m - *place_m).length());
         let off_m = off_m.fold(0.0, f64::max);
         println!("counted: {name}: {ending} after {:.6} years, off by {off_m:.1e} m", secs / YEAR_SECS);
         if name == "hearth" {
