@@ -32,7 +32,8 @@ fn options(command: &str) -> (Vec<Opt>, String) {
     let listed = help.lines().skip_while(|line| *line != "Options:").skip(1);
     for line in listed {
         let words: Vec<&str> = line.split_whitespace().collect();
-        let is_option = line.starts_with("  ") && words.first().is_some_and(|word| word.starts_with('-'));
+        // What they mean is indented further.
+        let is_option = line.find('-').is_some_and(|at| at <= 6 && line[..at].trim().is_empty());
         if is_option && !words.contains(&"--help") {
             let at = words.iter().position(|word| word.starts_with("--")).unwrap();
             let value =
