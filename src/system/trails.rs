@@ -55,7 +55,7 @@ impl Trails {
             while trail.next_secs <= now_secs {
                 let share = if step_secs > 0.0 { (trail.next_secs - self.last_secs) / step_secs } else { 1.0 };
                 trail.points_m.push_back(sweep.at(share.clamp(0.0, 1.0)));
-                trail.next_secs = trail.every_secs.max(step_secs / MOST as f64) + trail.next_secs;
+                trail.next_secs += trail.every_secs.max(step_secs / MOST as f64);
                 if trail.points_m.len() > MOST {
                     trail.points_m.pop_front();
                 }
