@@ -64,7 +64,7 @@ impl Lines {
             false => line.iter().rev().copied().collect(),
         };
         let mut rings: Vec<Ring> = self.rings.iter().map(turned).collect();
-        rings.extend(joined(self.pieces.iter().map(turned).collect()));
+        rings.extend(joined(&self.pieces.iter().map(turned).collect::<Vec<_>>()));
         let (mut around, holes): (Vec<Ring>, Vec<Ring>) = rings.into_iter().partition(|ring| area(ring) > 0.0);
         // A hole that lies in nothing lies in the whole rectangle.
         let is_outside = |hole: &Ring| !around.iter().any(|ring| contains(ring, hole[0]));
@@ -95,7 +95,7 @@ fn along(place: Place) -> f64 {
 }
 
 /// The rings that pieces make with the border.
-fn joined(pieces: Vec<Vec<Place>>) -> Vec<Ring> {
+fn joined(pieces: &[Vec<Place>]) -> Vec<Ring> {
     let mut rings = Vec::new();
     let mut is_used = vec![false; pieces.len()];
     let ends = |piece: &Vec<Place>| (along(piece[0]), along(piece[piece.len() - 1]));
