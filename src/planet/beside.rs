@@ -7,9 +7,10 @@
 //! one, then replaces the preset, then removes what no preset names any more. A save that is killed leaves the old
 //! preset with its old edits or the new one with its new edits.
 
-use super::file::{self, LoadError, write_atomically};
+use super::file::{self, LoadError, MAX_FILE_BYTES, write_atomically};
 use super::key::fnv1a;
 use super::param::ParamPath;
+use super::picture::folder_of;
 use super::{Planet, Problem, explain, locate, snippet};
 use std::fs;
 use std::ops::Range;
@@ -50,7 +51,7 @@ pub(super) fn nowhere(name: &str) -> Result<String, String> {
 
 /// Reads edits files in the folder of a preset. Of a link to a preset, in the folder of the preset.
 pub(super) fn in_folder_of(preset: &Path) -> impl FnMut(&str) -> Result<String, String> + use<> {
-    let folder = real_folder_of(preset);
+    let folder = folder_of(preset);
     move |name| match file::read_text(&folder.join(name)) {
         Ok(text) => Ok(text),
         Err(LoadError::Read { source, .. }) => Err(format!("{name}, which belongs beside the preset: {source}")),
@@ -143,11 +144,7 @@ fn checked_name(quoted: &str) -> Result<&str, String> {
 pub(super) fn of_preset(preset: &Path) -> Option<PathBuf> {
     let text = file::read_text(preset).ok()?;
     let place = reference(&text)?;
-    Some(real_folder_of(preset).join(checked_name(&text[place]).ok()?))
-}
-
-fn real_folder_of(preset: &Path) -> PathBuf {
-    super::picture::folder_of(&fs::canonicalize(preset).unwrap_or_else(|_| preset.to_owned()))
+    Some(folder_of(preset).join(checked_name(&text[place]).ok()?))
 }
 
 /// What a save writes.
@@ -166,7 +163,7 @@ pub(super) fn texts(planet: &Planet, preset: &Path) -> Texts {
     let long = (!is_few).then(|| snippet::of_part(planet, "edits")).flatten();
     let Some(edits) = long.filter(|text| text.len() > MOST_INLINE_BYTES) else { return in_one() };
     let stem = preset.file_stem().unwrap_or_default().to_string_lossy();
-    let name = format!("{stem}{MIDDLE}{:0DIGITS$x}{END}", fnv1a(edits.as_bytes()));
+    let name = name_of(&stem, edits.as_bytes());
     let mut bare = Planet { edits: Default::default(), ..planet.clone() }.to_text();
     match bare.rfind(')') {
         Some(end) if checked_name(&format!("{name:?}")).is_ok() => {
@@ -208,9 +205,19 @@ pub(super) fn sweep(folder: &Path, preset: &Path) {
         }
     }
     for entry in former {
-        // It may belong to somebody else.
-        let _ = fs::remove_file(entry.path());
+        // A file that somebody has changed, or only named like one, is not this program's.
+        let is_own = file::read(&entry.path(), MAX_FILE_BYTES)
+            .is_ok_and(|bytes| entry.file_name().to_string_lossy() == name_of(&stem, &bytes));
+        if is_own {
+            // It may belong to somebody else.
+            let _ = fs::remove_file(entry.path());
+        }
     }
+}
+
+/// The name of the edits file of a preset with such a stem.
+fn name_of(stem: &str, text: &[u8]) -> String {
+    format!("{stem}{MIDDLE}{:0DIGITS$x}{END}", fnv1a(text))
 }
 
 fn is_edits_file_of(stem: &str, name: &str) -> bool {

@@ -1,29 +1,22 @@
 //! Loading and saving a preset, and the errors of both.
 
 use super::locate::Place;
-use super::open::{Opened, open};
 use super::param::ParamPath;
 use super::picture::folder_of;
 use super::problem::Problem;
 use super::root::Root;
 use super::{Planet, beside, explain, locate, migrate, text, validate};
-use std::collections::{BTreeSet, HashMap};
-use std::fs::{File, Permissions};
-use std::io::{self, Read as _, Write as _};
+use std::collections::HashMap;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
+
+pub(crate) use super::open::{open_file, read};
+#[cfg(feature = "bake")]
+pub(crate) use super::output::write_atomically_with;
+pub(crate) use super::output::{Staged, Target, stage, write_atomically};
 
 /// Longest preset that is read, in bytes: more than that of one with every list at its limit.
 pub const MAX_FILE_BYTES: u64 = 48 << 20;
-
-/// How names of unfinished files begin and end.
-const UNFINISHED: &str = ".tellus-";
-const UNFINISHED_END: &str = ".tmp";
-/// Age from which an unfinished file is one that a killed writer left.
-const ABANDONED: Duration = Duration::from_secs(3600);
-/// Most links from a path to a file.
-const MOST_LINKS: usize = 40;
 
 /// A preset that could not be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -216,6 +209,10 @@ pub(crate) fn read_as<R: Root>(
         let message = format!("the text is longer than {} KiB; a {} is much shorter", MAX_FILE_BYTES >> 10, R::NOUN);
         return Err(invalid(Problem { line: 0, column: 0, path: String::new(), message }));
     }
+    if let Some((field, message)) = R::other(text) {
+        let place = locate::find(text, field).map_or(0, |place| place.key);
+        return Err(invalid(explain::at(text, place, message)));
+    }
     version::<R>(text).and_then(|version| read(version, text)).map_err(invalid)
 }
 
@@ -243,24 +240,6 @@ pub(crate) fn read_text(path: &Path) -> Result<String, LoadError> {
 /// Some editors put a byte-order mark in front.
 fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
-}
-
-/// The bytes of a file: all of them, or `most` and one more of a longer file.
-pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    open_file(path)?.take(most + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
-}
-
-/// Opens a file for reading, and nothing else.
-pub(crate) fn open_file(path: &Path) -> io::Result<File> {
-    match open(path)? {
-        Opened::File(file) => Ok(file),
-        Opened::Folder => Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder; name a file")),
-        Opened::Special => {
-            Err(io::Error::new(io::ErrorKind::InvalidInput, "is a device or a pipe, not a file; name a file"))
-        }
-    }
 }
 
 /// The version of a text. It is found without parsing the rest, which a newer version may write differently.
@@ -321,147 +300,5 @@ fn placed(text: &str, places: &HashMap<String, Place>, path: String, message: St
             None if holder.is_empty() => return Problem { line: 1, column: 1, path, message },
             None => holder = "",
         }
-    }
-}
-
-/// Writes a file beside the target, syncs it to disk, then renames it to the target: a reader finds the old file or the
-/// new one, never a part of either, whatever fails in between.
-pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    write_atomically_with(path, None, &mut |file| file.write_all(bytes))
-}
-
-/// As [`write_atomically`], for a file that is written piece by piece. `beside`: the folder for the unfinished file, on
-/// the disk of the target; the folder of the target unless one is given.
-pub(crate) fn write_atomically_with(
-    path: &Path,
-    beside: Option<&Path>,
-    write: &mut dyn FnMut(&mut File) -> io::Result<()>,
-) -> Result<(), String> {
-    stage(path, beside, write)?.commit()
-}
-
-/// A file that is complete and on the disk, but not in its place yet. Files of a set are staged first and then
-/// committed together: a disk that is full changes none of them. Dropped, it is removed.
-pub(crate) struct Staged {
-    unfinished: tempfile::TempPath,
-    target: PathBuf,
-    folder: PathBuf,
-}
-
-/// The first part of [`write_atomically_with`]: all of it but the rename.
-pub(crate) fn stage(
-    path: &Path,
-    beside: Option<&Path>,
-    write: &mut dyn FnMut(&mut File) -> io::Result<()>,
-) -> Result<Staged, String> {
-    let Target { path: target, folder, permissions } = Target::checked(path)?;
-    let unfinished = beside.unwrap_or(&folder);
-    sweep(unfinished);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(UNFINISHED).suffix(UNFINISHED_END);
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder
-        .tempfile_in(unfinished)
-        .map_err(|e| failed(&format!("cannot write to the folder {}", unfinished.display()), &e))?;
-    write(file.as_file_mut()).map_err(|e| failed("cannot write", &e))?;
-    if let Some(permissions) = permissions {
-        // Not every file system has permissions.
-        let _ = file.as_file().set_permissions(permissions);
-    }
-    file.as_file().sync_all().map_err(|e| failed("cannot write", &e))?;
-    Ok(Staged { unfinished: file.into_temp_path(), target, folder })
-}
-
-impl Staged {
-    /// Where its bytes are until it is committed.
-    #[cfg(feature = "bake")]
-    pub(crate) fn unfinished(&self) -> &Path {
-        &self.unfinished
-    }
-
-    /// Moves it to its place.
-    pub(crate) fn commit(self) -> Result<(), String> {
-        let Self { unfinished, target, folder } = self;
-        unfinished.persist(target).map_err(|e| failed("cannot replace the file", &e.error))?;
-        // The rename must reach the disk, too. Not every system can open folders, and the file is complete already.
-        #[cfg(unix)]
-        if let Ok(folder) = File::open(folder) {
-            let _ = folder.sync_all();
-        }
-        Ok(())
-    }
-}
-
-fn failed(what: &str, error: &io::Error) -> String {
-    format!("{what}: {error}; the old file is as it was")
-}
-
-/// Where a link leads whose target is missing; the path itself if it is no link.
-fn followed(path: &Path) -> PathBuf {
-    let mut path = path.to_owned();
-    // More links than this are a circle, which the system refuses.
-    for _ in 0..MOST_LINKS {
-        let Ok(target) = std::fs::read_link(&path) else { break };
-        path = path.parent().map_or_else(|| target.clone(), |folder| folder.join(&target));
-    }
-    path
-}
-
-/// Removes the unfinished files that killed writers left in a folder; each process looks once. A writer that is at work
-/// has touched its file lately.
-fn sweep(folder: &Path) {
-    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-    if !SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned()) {
-        return;
-    }
-    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        let age = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
-        if name.starts_with(UNFINISHED) && name.ends_with(UNFINISHED_END) && age().is_some_and(|age| age > ABANDONED) {
-            // It may belong to somebody else.
-            let _ = std::fs::remove_file(entry.path());
-        }
-    }
-}
-
-/// A place where a file can be written.
-pub(crate) struct Target {
-    path: PathBuf,
-    folder: PathBuf,
-    /// Those of the file that is there already.
-    permissions: Option<Permissions>,
-}
-
-impl Target {
-    /// Checks that a file can be written or replaced here, as far as that is known before.
-    pub(crate) fn checked(path: &Path) -> Result<Self, String> {
-        // A link stays a link; its target is replaced, or made.
-        let target = std::fs::canonicalize(path).unwrap_or_else(|_| followed(path));
-        if std::fs::symlink_metadata(&target).is_ok_and(|metadata| metadata.is_symlink()) {
-            return Err("is a link that leads around in a circle; name a file".to_owned());
-        }
-        let folder = match target.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        if !folder.is_dir() {
-            return Err(format!("there is no folder {}; make it first or save elsewhere", folder.display()));
-        }
-        if target.is_dir() {
-            return Err("is a folder; name a file in it".to_owned());
-        }
-        if path.file_name().is_none() {
-            return Err("is not a file's name; name a file".to_owned());
-        }
-        if std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
-            return Err("is a device or a pipe, not a file; name a file".to_owned());
-        }
-        let permissions = std::fs::metadata(&target).ok().map(|metadata| metadata.permissions());
-        if permissions.as_ref().is_some_and(Permissions::readonly) {
-            return Err("is read-only; change its permissions or save elsewhere".to_owned());
-        }
-        Ok(Self { folder: folder.to_owned(), path: target, permissions })
     }
 }

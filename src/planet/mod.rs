@@ -8,9 +8,10 @@
 //! - [`diff`]: which parameters two planets differ in
 //! - [`key`]: content keys
 //! - [`validate`]: ranges, references between names, the shape of the biome table
-//! - [`mod@file`]: loading and saving; `open` opens files, `beside` keeps long lists of edits in a file of their
-//!   own, `text` writes a preset, `explain` parses one and explains errors, `locate` finds lines and columns, `migrate`
-//!   reads old versions; [`snippet`] reads and writes single parts
+//! - [`mod@file`]: loading and saving; `open` opens files, `output` writes them; `beside` keeps long lists of edits in
+//!   a file of their own, `text` writes a preset, `explain` parses one and explains errors, `locate` finds lines and
+//!   columns, `migrate` reads old versions; [`snippet`] reads and writes single parts
+//! - [`sources`]: what a work reads, so that its outputs replace none of it
 //! - `giant`: gas giants, and giants to start from
 //! - `rings`: rings of a planet, and rings to start from
 //! - `printable`: text of strangers, as it may be shown
@@ -42,7 +43,8 @@ pub mod locks;
 pub mod masks;
 pub(crate) mod migrate;
 pub mod notes;
-mod open;
+pub(crate) mod open;
+pub(crate) mod output;
 pub mod param;
 pub mod parts;
 pub mod picture;
@@ -57,6 +59,7 @@ pub mod shapes;
 pub mod shipped;
 mod skies;
 pub mod snippet;
+pub mod sources;
 mod star_color;
 mod starting;
 pub mod structure;

@@ -1,7 +1,7 @@
 //! What a whole file holds: a planet, or a system of them. Reading, writing and explaining errors is the same for both.
 
 use super::param::{Look, ParamPath, Params, Part, PartType};
-use super::{Planet, VERSION, migrate};
+use super::{Planet, VERSION, locate, migrate};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -15,6 +15,9 @@ pub(crate) trait Root: PartType + Params {
     const THING: &'static str;
     /// What the file is called in messages: "preset".
     const NOUN: &'static str;
+
+    /// A field that shows that the text is a file of another kind, and the message about it.
+    fn other(text: &str) -> Option<(&'static str, &'static str)>;
 
     /// Every part, at any depth.
     fn parts() -> Vec<&'static Part> {
@@ -34,4 +37,12 @@ impl Root for Planet {
     const VERSION: u32 = VERSION;
     const THING: &'static str = "planet";
     const NOUN: &'static str = "preset";
+
+    fn other(text: &str) -> Option<(&'static str, &'static str)> {
+        locate::find(text, "bodies")?;
+        Some((
+            "bodies",
+            "this is a system file, not a preset; name the preset of one of its planets, or one of its bodies (--body)",
+        ))
+    }
 }

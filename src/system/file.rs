@@ -5,6 +5,7 @@ use crate::planet::file::{LoadError, SaveError, all_placed, read_as, read_text, 
 use crate::planet::param::{ParamPath, Segment};
 use crate::planet::picture::folder_of;
 use crate::planet::root::Root;
+use crate::planet::sources::Sources;
 use crate::planet::{Planet, Version, explain, locate, text};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -39,7 +40,16 @@ impl Root for System {
     const VERSION: u32 = VERSION;
     const THING: &'static str = "system";
     const NOUN: &'static str = "system file";
+
+    fn other(text: &str) -> Option<(&'static str, &'static str)> {
+        let is_preset = |field: &&&str| locate::find(text, field).is_some();
+        let field = PRESET_FIELDS.iter().find(is_preset).filter(|_| !System::is_system(text))?;
+        Some((field, "this is a preset of one planet, not a system file; name a file with `bodies`"))
+    }
 }
+
+/// Fields of presets, at least one of which every preset of a planet has.
+const PRESET_FIELDS: [&str; 7] = ["radius_km", "layers", "biomes", "climate", "star", "structure", "giant"];
 
 impl System {
     /// Reads and checks a system file, without the presets that it names.
@@ -118,6 +128,19 @@ impl System {
             planets.push(Some(planet));
         }
         Ok(planets)
+    }
+
+    /// The files of the system: its own, those of its presets and those that they name. `planets`: those of
+    /// [`Self::load_planets`].
+    pub fn sources(&self, file: &Path, planets: &[Option<std::sync::Arc<Planet>>]) -> Sources {
+        let mut sources = Sources::default();
+        sources.add(file, "the system file");
+        for (body, planet) in self.bodies.iter().zip(planets) {
+            if let Some(planet) = planet {
+                sources.extend(Sources::of_preset(&folder_of(file).join(&body.preset), planet));
+            }
+        }
+        sources
     }
 
     /// Whether the system can be saved and moved.

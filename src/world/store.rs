@@ -2,15 +2,17 @@
 //!
 //! Each file holds one map at its finest level. Its name is the map, the side of its grid and the key of everything
 //! that it was solved from, so a file is never out of date, only unused. A file that is damaged, or of another
-//! version, counts as missing.
+//! version, counts as missing. Files of other programs that happen to be in the folder stay as they are.
 //!
 //! Format, little-endian: `MAGIC`, [`VERSION`], the key (16 bytes), a checksum (8 bytes), the content.
 
 use super::bytes::{Reader, Writer};
 use super::map::{Inputs, WorldMap};
 use crate::planet::Key;
-use crate::planet::file::write_atomically;
+use crate::planet::open::{open_file, read_whole};
+use crate::planet::output::{check_address, write_over_links};
 use std::fs;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::SystemTime;
@@ -22,6 +24,8 @@ pub(crate) const VERSION: u32 = 3;
 const MAGIC: [u8; 8] = *b"TELLUSWM";
 const HEADER: usize = MAGIC.len() + 4 + 16 + 8;
 const EXTENSION: &str = "map";
+/// Longest file that is read: the largest map has less than 100 MiB.
+const MOST_BYTES: u64 = 256 << 20;
 
 /// A folder of solved world maps. Share one between all terrains and builders of a process.
 #[derive(Debug)]
@@ -68,13 +72,13 @@ impl MapStore {
     pub(super) fn read<M: WorldMap>(&self, inputs: &Inputs, side: usize, key: Key) -> Option<M> {
         profiling::scope!("read a world map");
         let path = self.path(M::NAME, side, key);
-        let bytes = fs::read(&path).ok()?;
+        let bytes = read_whole(&path, MOST_BYTES).ok()?;
         let content = content(&bytes, key)?;
         let mut reader = Reader(content);
         let map = M::read(inputs, side, &mut reader).filter(|_| reader.is_at_end())?;
         if self.limit_bytes.is_some() {
             // Keeps it from being the one that is deleted. Not every file system has times.
-            let _ = fs::File::open(&path).and_then(|file| file.set_modified(SystemTime::now()));
+            let _ = open_file(&path).and_then(|file| file.set_modified(SystemTime::now()));
         }
         Some(map)
     }
@@ -86,9 +90,9 @@ impl MapStore {
         let mut writer = Writer(vec![0; HEADER]);
         map.write(&mut writer);
         let bytes = with_header(writer.0, key);
-        let written = fs::create_dir_all(&self.folder)
-            .map_err(|error| format!("cannot make the folder: {error}"))
-            .and_then(|()| write_atomically(&self.path(M::NAME, side, key), &bytes));
+        let written = check_address(&self.folder)
+            .and_then(|()| fs::create_dir_all(&self.folder).map_err(|error| format!("cannot make the folder: {error}")))
+            .and_then(|()| write_over_links(&self.path(M::NAME, side, key), &bytes));
         match written {
             Ok(()) => self.trim(limit_bytes),
             Err(error) => {
@@ -101,11 +105,13 @@ impl MapStore {
     /// Deletes the maps that were not used for longest, until the others take no more than the limit.
     fn trim(&self, limit_bytes: u64) {
         let Ok(entries) = fs::read_dir(&self.folder) else { return };
-        let maps = entries.flatten().filter(|entry| entry.path().extension().is_some_and(|end| end == EXTENSION));
+        let maps = entries.flatten().filter(|entry| is_own_name(&entry.file_name().to_string_lossy()));
         let mut maps: Vec<_> = maps
             .filter_map(|entry| {
+                // Of a link this is the link.
                 let metadata = entry.metadata().ok().filter(fs::Metadata::is_file)?;
-                Some((metadata.modified().ok()?, metadata.len(), entry.path()))
+                let path = entry.path();
+                has_own_head(&path).then_some((metadata.modified().ok()?, metadata.len(), path))
             })
             .collect();
         maps.sort_by(|a, b| b.cmp(a));
@@ -118,6 +124,27 @@ impl MapStore {
             }
         }
     }
+}
+
+/// Whether a name is one that [`MapStore::path`] gives.
+fn is_own_name(name: &str) -> bool {
+    let mut parts = name.strip_suffix(EXTENSION).and_then(|stem| stem.strip_suffix('.')).unwrap_or_default().split('_');
+    let is = |part: Option<&str>, is_right: fn(u8) -> bool| {
+        part.is_some_and(|part| !part.is_empty() && part.bytes().all(is_right))
+    };
+    let is_hex = |c: u8| c.is_ascii_digit() || (b'a'..=b'f').contains(&c);
+    let (map, side, key) = (parts.next(), parts.next(), parts.next());
+    is(map, |c| c.is_ascii_lowercase())
+        && is(side, |c| c.is_ascii_digit())
+        && key.is_some_and(|key| key.len() == 32)
+        && is(key, is_hex)
+        && parts.next().is_none()
+}
+
+/// Whether a file begins as a map does, of whatever version.
+fn has_own_head(path: &Path) -> bool {
+    let mut head = [0; MAGIC.len()];
+    open_file(path).and_then(|mut file| file.read_exact(&mut head)).is_ok_and(|()| head == MAGIC)
 }
 
 /// Fills in the header before the content.

@@ -90,7 +90,12 @@ fn unfinished_files_of_killed_writers_are_swept() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let hours_ago = std::time::SystemTime::now() - Duration::from_secs(2 * 3600);
-    for (name, is_old) in [(".tellus-old.tmp", true), (".tellus-new.tmp", false), (".other-old.tmp", true)] {
+    for (name, is_old) in [
+        (".tellus-oLd001.tmp", true),
+        (".tellus-new001.tmp", false),
+        (".tellus-notes.tmp", true),
+        (".other-old001.tmp", true),
+    ] {
         std::fs::write(at(name), "half a planet").unwrap();
         if is_old {
             std::fs::File::options().write(true).open(at(name)).unwrap().set_modified(hours_ago).unwrap();
@@ -100,7 +105,7 @@ fn unfinished_files_of_killed_writers_are_swept() {
     let mut names: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
     // A writer may be at work on the new one.
-    assert_eq!(names, [".other-old.tmp", ".tellus-new.tmp", "planet.ron"]);
+    assert_eq!(names, [".other-old001.tmp", ".tellus-new001.tmp", ".tellus-notes.tmp", "planet.ron"]);
 }
 
 #[cfg(unix)]

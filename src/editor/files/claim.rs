@@ -3,6 +3,8 @@
 //! lock blocks nothing: it only informs.
 
 use crate::planet::key::fnv1a;
+use crate::planet::open::followed;
+use crate::planet::picture::folder_of;
 use std::fs::{self, File, TryLockError};
 use std::io::{Seek as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -23,8 +25,8 @@ impl Claim {
     pub fn take(folder: &Path, file: &Path) -> Option<Self> {
         // A file that does not exist yet has no canonical path, but its folder has.
         let whole = fs::canonicalize(file).or_else(|_| {
-            let parent = crate::planet::picture::folder_of(file);
-            fs::canonicalize(parent).map(|parent| parent.join(file.file_name().unwrap_or_default()))
+            let file = followed(file);
+            fs::canonicalize(folder_of(&file)).map(|parent| parent.join(file.file_name().unwrap_or_default()))
         });
         let stem = folder.join(format!("{PREFIX}{:016x}", fnv1a(whole.ok()?.as_os_str().as_encoded_bytes())));
         fs::create_dir_all(folder).ok()?;

@@ -4,6 +4,7 @@
 //! lost by a click. The user's tags are in a text file: a line for each preset, its name and the tags between tabs.
 
 use crate::planet::file::{read_text, write_atomically};
+use crate::planet::open::read_whole_text;
 use crate::planet::picture::folder_of;
 use crate::planet::{Planet, snippet};
 use std::collections::BTreeMap;
@@ -14,6 +15,7 @@ use std::path::{Path, PathBuf};
 const MOST: usize = 300;
 /// The file of the tags.
 const TAGS: &str = "tags.txt";
+const MOST_TAG_BYTES: u64 = 1 << 20;
 /// Most letters of a name and of a tag.
 const MOST_LETTERS: usize = 64;
 /// The folder of what was removed.
@@ -96,7 +98,7 @@ impl Library {
 
     /// The user's tags, by the name of the file without its ending.
     fn tags(&self) -> BTreeMap<String, Vec<String>> {
-        let text = fs::read_to_string(self.folder.join(TAGS)).unwrap_or_default();
+        let text = read_whole_text(&self.folder.join(TAGS), MOST_TAG_BYTES).unwrap_or_default();
         let line = |line: &str| {
             let mut words = line.split('\t').map(str::to_owned);
             Some((words.next()?, words.collect()))

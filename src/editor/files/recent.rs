@@ -1,12 +1,14 @@
 //! The files that were opened or saved last. They are kept in a text file that all windows share, a path on each line.
 
 use crate::planet::file::write_atomically;
-use std::fs;
+use crate::planet::open::read_whole_text;
 use std::path::{Path, PathBuf};
 
 /// Most files that are kept.
 const MOST: usize = 12;
 const FILE_NAME: &str = "recent.txt";
+/// Longest list that is read.
+const MOST_BYTES: u64 = 1 << 20;
 
 /// The files that were opened or saved last, newest first.
 #[derive(Default)]
@@ -62,7 +64,7 @@ impl Recent {
 }
 
 fn read(file: &Path) -> Vec<PathBuf> {
-    let text = fs::read_to_string(file).unwrap_or_default();
+    let text = read_whole_text(file, MOST_BYTES).unwrap_or_default();
     text.lines().filter(|line| !line.is_empty()).take(MOST).map(PathBuf::from).collect()
 }
 

@@ -8,6 +8,7 @@ use super::document::Document;
 use super::system::OpenSystem;
 use crate::planet::Planet;
 use crate::planet::file::{read_text, write_atomically};
+use crate::planet::open::read_whole_text;
 use crate::system::System;
 use std::fs::{self, File};
 use std::io;
@@ -18,6 +19,9 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// Least time between two writes: the most work that a crash can cost.
 const INTERVAL: Duration = Duration::from_secs(2);
+
+/// Longest list of files that is read.
+const MOST_PATH_BYTES: u64 = 1 << 16;
 
 /// The working copy of this editor.
 pub struct Recovery {
@@ -210,7 +214,7 @@ fn writer(
     let file = file.to_owned();
     move || {
         // Work beside the wrong file name would be saved over another planet: better beside none.
-        let is_same = fs::read_to_string(files_of(&file)).is_ok_and(|held| held == belong);
+        let is_same = read_whole_text(&files_of(&file), MOST_PATH_BYTES).is_ok_and(|held| held == belong);
         if !is_same {
             remove(&files_of(&file));
         }
@@ -244,7 +248,7 @@ fn all_files(file: &Path) -> [PathBuf; 3] {
 
 /// The files that a working copy of a planet and of a system belong to.
 fn read_files(file: &Path) -> [Option<PathBuf>; 2] {
-    let text = fs::read_to_string(files_of(file)).unwrap_or_default();
+    let text = read_whole_text(&files_of(file), MOST_PATH_BYTES).unwrap_or_default();
     ["planet ", "system "].map(|kind| text.lines().find_map(|line| line.strip_prefix(kind)).map(PathBuf::from))
 }
 

@@ -2,6 +2,7 @@
 
 use crate::film::Thumbnail;
 use crate::planet::file::write_atomically;
+use crate::planet::open::read_whole;
 use crate::planet::{Key, Planet, VERSION};
 use crate::render::{Renderer, srgb_from_linear};
 use eframe::egui::{Color32, ColorImage};
@@ -14,6 +15,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 /// Most pictures that are kept between runs.
 const MOST_KEPT: usize = 400;
+/// Longest file of a kept picture.
+const MOST_BYTES: u64 = 1 << 24;
 
 /// A picture of the newest batch: its number there, and the picture or what went wrong.
 pub type Drawn = (usize, Result<ColorImage, String>);
@@ -105,7 +108,11 @@ impl KeptPictures {
     fn open(folder: PathBuf) -> Self {
         let files = fs::read_dir(&folder).into_iter().flatten().filter_map(|entry| {
             let entry = entry.ok()?;
-            Some((entry.metadata().ok()?.modified().ok()?, entry.path()))
+            let metadata = entry
+                .metadata()
+                .ok()
+                .filter(|data| data.is_file() && is_own_name(&entry.file_name().to_string_lossy()));
+            Some((metadata?.modified().ok()?, entry.path()))
         });
         let mut files: Vec<_> = files.collect();
         files.sort();
@@ -124,8 +131,14 @@ impl KeptPictures {
     }
 }
 
+/// Whether a name is one that [`KeptPictures::file`] gives: what others have put into the folder stays.
+fn is_own_name(name: &str) -> bool {
+    let key = name.strip_suffix(".png").unwrap_or_default();
+    key.len() == 32 && key.bytes().all(|digit| digit.is_ascii_hexdigit())
+}
+
 fn read(file: &Path) -> Option<ColorImage> {
-    let picture = image::open(file).ok()?.into_rgb8();
+    let picture = image::load_from_memory(&read_whole(file, MOST_BYTES).ok()?).ok()?.into_rgb8();
     let size = [picture.width() as usize, picture.height() as usize];
     Some(ColorImage::from_rgb(size, &picture))
 }

@@ -25,6 +25,7 @@ pub use budget::{Budget, MAX_BYTES, MAX_PIXELS, MAX_WORK_BYTES};
 pub use contain::is_contained;
 pub use pixels::{Picture, PictureExtent, PictureLayout};
 
+use super::open::followed;
 use super::param::{ParamValue, ValueMut, ValueRef};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -176,8 +177,10 @@ impl PictureFile {
     }
 }
 
-/// The folder of a preset, as references keep it.
-pub(crate) fn folder_of(preset: &Path) -> PathBuf {
-    let whole = std::path::absolute(preset).unwrap_or_else(|_| preset.to_owned());
+/// The folder of a preset or a system file, where all that it names begins: pictures, edits, presets. Of a link, the
+/// folder of the file to which it leads, which is also the file that a save replaces.
+pub(crate) fn folder_of(file: &Path) -> PathBuf {
+    let file = followed(file);
+    let whole = std::path::absolute(&file).unwrap_or(file);
     whole.parent().map_or_else(PathBuf::new, Path::to_owned)
 }

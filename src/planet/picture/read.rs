@@ -1,6 +1,6 @@
 //! Opens the file of a picture, or takes its bytes, and chooses the decoder by the first of them.
 
-use super::budget::Budget;
+use super::budget::{Budget, MAX_WORK_BYTES};
 use super::pixels::{Picture, PictureExtent};
 use super::{from_exr, from_png};
 use crate::planet::open::{Opened, open};
@@ -21,6 +21,10 @@ pub(super) fn read(path: &Path, extent: PictureExtent, budget: &mut Budget) -> R
         }
         Err(error) => return Err(format!("{shown} cannot be read: {error}")),
     };
+    // No picture within the budget has so long a file.
+    if file.get_ref().metadata().is_ok_and(|data| data.len() > MAX_WORK_BYTES) {
+        return Err(format!("{shown} is longer than {} MiB; use a smaller picture", MAX_WORK_BYTES >> 20));
+    }
     decoded(file, extent, budget).map_err(|problem| format!("{shown} {problem}"))
 }
 

@@ -147,26 +147,114 @@ fn forged_numbers_are_refused_or_harmless() {
     assert!(refused >= 3, "{refused}");
 }
 
+/// A file of a hundred bytes that was last used so many hours ago.
+fn old(path: &Path, begin: &[u8], hours: u64) {
+    let mut bytes = begin.to_vec();
+    bytes.resize(100, 0);
+    fs::write(path, bytes).unwrap();
+    let then = SystemTime::now() - std::time::Duration::from_secs(3600 * hours);
+    fs::File::options().write(true).open(path).unwrap().set_modified(then).unwrap();
+}
+
 #[test]
 fn the_maps_that_were_not_used_for_longest_are_deleted() {
     let folder = tempfile::tempdir().unwrap();
     let store = MapStore::new(folder.path(), 250);
-    let old = |name: &str, hours: u64| {
-        let path = folder.path().join(name);
-        fs::write(&path, [0; 100]).unwrap();
-        let then = SystemTime::now() - std::time::Duration::from_secs(3600 * hours);
-        fs::File::options().write(true).open(&path).unwrap().set_modified(then).unwrap();
-    };
-    old("new.map", 1);
-    old("older.map", 2);
-    old("oldest.map", 3);
-    old("a letter.txt", 9);
+    let [new, older, oldest] = ["new", "older", "oldest"].map(|key| store.path("rivers", 64, Key::of(&key)));
+    for (hours, path) in [&new, &older, &oldest].into_iter().enumerate() {
+        old(path, &MAGIC, hours as u64 + 1);
+    }
     store.trim(250);
-    let names: Vec<String> =
-        files(folder.path()).iter().map(|path| path.file_name().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(names, ["a letter.txt", "new.map", "older.map"]);
+    let mut kept = [new.clone(), older];
+    kept.sort();
+    assert_eq!(files(folder.path()), kept);
     store.trim(10);
-    assert_eq!(files(folder.path()).len(), 2, "the newest map stays");
+    assert_eq!(files(folder.path()), [new], "the newest map stays");
+}
+
+/// The folder may be one that its user has named: what the store has not written stays.
+#[test]
+fn files_of_others_are_not_deleted() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = MapStore::new(folder.path(), 0);
+    let own = |key: &str| store.path("rivers", 64, Key::of(&key));
+    old(&own("newest"), &MAGIC, 1);
+    // The endings of maps of games; a name like the store's own without its head; its head under another name.
+    let others = ["quake.map", "small.map", "a letter.txt", "rivers_64_.map", "rivers_64_12ab.map", "Rivers_64_x.map"];
+    for name in others {
+        old(&folder.path().join(name), &MAGIC, 9);
+    }
+    old(&own("of another program"), b"IBSP", 9);
+    fs::write(own("empty"), "").unwrap();
+    fs::create_dir(own("folder")).unwrap();
+    #[cfg(unix)]
+    {
+        let outside = tempfile::tempdir().unwrap().keep();
+        old(&outside.join("map"), &MAGIC, 9);
+        std::os::unix::fs::symlink(outside.join("map"), own("link")).unwrap();
+    }
+    let before = files(folder.path());
+    store.trim(0);
+    assert_eq!(files(folder.path()), before);
+    old(&own("used by nobody"), &MAGIC, 9);
+    store.trim(0);
+    assert_eq!(files(folder.path()), before, "a map of the store's own goes");
+}
+
+#[test]
+fn names_of_maps_are_told_from_others() {
+    let path = MapStore::new("maps", 0).path("plates", 256, Key::of(&"some"));
+    let own = path.file_name().unwrap().to_string_lossy().into_owned();
+    assert!(is_own_name(&own));
+    for other in [
+        own.to_uppercase(),
+        own.replace('_', "-"),
+        format!("x{own}x"),
+        own.replace(".map", "map"),
+        own.replace("256", ""),
+    ] {
+        assert!(!is_own_name(&other), "{other}");
+    }
+}
+
+/// A link in the folder was put there by somebody else: its target stays as it is.
+#[cfg(unix)]
+#[test]
+fn a_link_in_the_place_of_a_map_is_not_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    let [maps, precious] = ["maps", "precious"].map(|name| folder.path().join(name));
+    let store = Arc::new(MapStore::new(&maps, u64::MAX));
+    solved(&store, &planet(1));
+    let whole = files(&maps);
+    for path in &whole {
+        fs::remove_file(path).unwrap();
+        fs::write(&precious, "precious").unwrap();
+        std::os::unix::fs::symlink(&precious, path).unwrap();
+    }
+    let (_, work) = solved(&store, &planet(1));
+    assert_eq!((work.runs, work.reads), (3, 0));
+    assert_eq!(fs::read(&precious).unwrap(), b"precious");
+    assert!(files(&maps) == whole && whole.iter().all(|path| !path.is_symlink()));
+    assert_eq!(store.take_problem(), None);
+}
+
+/// Neither a pipe, at which a reader would wait for ever, nor a device, which never ends.
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_in_the_place_of_maps_count_as_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Arc::new(MapStore::new(folder.path(), u64::MAX));
+    solved(&store, &planet(1));
+    let whole = files(folder.path());
+    for path in &whole {
+        fs::remove_file(path).unwrap();
+    }
+    std::os::unix::fs::symlink("/dev/zero", &whole[0]).unwrap();
+    for path in &whole[1..] {
+        assert!(std::process::Command::new("mkfifo").arg(path).status().unwrap().success());
+    }
+    let (_, work) = solved(&store, &planet(1));
+    assert_eq!((work.runs, work.reads), (3, 0));
 }
 
 #[test]
