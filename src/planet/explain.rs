@@ -4,6 +4,7 @@
 //! adds what would be right.
 
 use super::param::{Domain, Form, Param};
+use super::printable::printable;
 use super::root::Root;
 use super::{Mask, Problem, Shape, Tool, locate};
 use ron::error::{Error, SpannedError};
@@ -48,6 +49,10 @@ fn problem<R: Root>(text: &str, path: String, error: &SpannedError) -> Problem {
     let stop = locate::offset(text, error.span.end.line, error.span.end.col);
     let place = locate::find(text, &path);
     let at_value = place.map_or(stop, |place| place.value);
+    if let Some((start, number)) = decimal_comma(text, stop) {
+        let path = last_value(text, start + 1).0;
+        return Problem { path, ..at(text, start, format!("write {number} with a point; a comma ends the value")) };
+    }
     let (offset, message) = match &error.code {
         Error::NoSuchStructField { expected, found, .. } => {
             (key_offset(text, &path, found).unwrap_or(stop), stranger("field", found, expected))
@@ -88,12 +93,15 @@ fn problem<R: Root>(text: &str, path: String, error: &SpannedError) -> Problem {
             (at_value, wanted::<R>(text, &path, at_value))
         }
         Error::ExpectedDifferentLength { found, .. } => {
-            (at_value, format!("{found} numbers are too few; use {}", numbers::<R>(&path)))
+            let are = if *found == 1 { "number is" } else { "numbers are" };
+            (at_value, format!("{found} {are} too few; use {}", numbers::<R>(&path)))
         }
         Error::ExpectedStructLikeEnd if place.is_some_and(|p| parameter::<R>(&path).is_some() && p.value < stop) => {
             (stop, format!("too many numbers; use {}", numbers::<R>(&path)))
         }
-        Error::ExpectedStructLikeEnd => (stop, "a closing `)` is missing; add it here".to_owned()),
+        Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => {
+            (stop, "a closing `)` is missing; add it here".to_owned())
+        }
         Error::ExpectedArrayEnd => (stop, "a closing `]` is missing; add it here".to_owned()),
         Error::ExpectedMapColon => (stop, "a colon is missing; write `field: value`".to_owned()),
         Error::ExpectedStringEnd => (stop, "this text has no closing `\"`; add it".to_owned()),
@@ -117,9 +125,74 @@ fn problem<R: Root>(text: &str, path: String, error: &SpannedError) -> Problem {
             let found = locate::excerpt(text, stop);
             (stop, format!("found {found}; a {} is written `(version: {}, ...)`", R::NOUN, R::VERSION))
         }
-        other => (stop, other.to_string()),
+        Error::SuggestRawIdentifier(found) | Error::InvalidIdentifier(found) => {
+            let start = start_of(text, found, stop);
+            if is_behind_colon(text, start) {
+                let (path, _) = last_value(text, start + 1);
+                let message = wanted::<R>(text, &path, start);
+                return Problem { path, ..at(text, start, message) };
+            }
+            (start, format!("{} is not a field's name; write `field: value`", locate::excerpt(text, start)))
+        }
+        Error::InvalidEscape(_) => {
+            let message = "this `\\` begins no known sign; write `\\\\` for a backslash, and `/` in paths";
+            (before(text, "\\", stop), message.to_owned())
+        }
+        Error::ExpectedAttribute | Error::ExpectedAttributeEnd | Error::NoSuchExtension(_) => {
+            let message = format!("a line with `#!` changes the notation; remove it: no {} needs one", R::NOUN);
+            (before(text, "#!", stop), message)
+        }
+        // The words of a parser help nobody who has not written it.
+        _ if place.is_some() && !path.is_empty() => (at_value, wanted::<R>(text, &path, at_value)),
+        _ => {
+            let found = locate::excerpt(text, stop);
+            let (noun, version) = (R::NOUN, R::VERSION);
+            (
+                stop,
+                format!(
+                    "{found} is not what belongs here; a {noun} is written `(version: {version}, field: value, ...)`"
+                ),
+            )
+        }
     };
     Problem { path, ..at(text, offset, message) }
+}
+
+/// A number with a comma for a point, near which the parser has stopped: its offset, and how it is written. `a: 1,5` is
+/// one, but not the list `[1,5]`.
+fn decimal_comma(text: &str, stop: usize) -> Option<(usize, String)> {
+    let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
+    let bytes = text.as_bytes();
+    // The parser stands at the digits behind the comma, or behind them.
+    let behind = bytes.get(..stop)?.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
+    let comma = (stop - behind).checked_sub(1).filter(|comma| bytes.get(*comma) == Some(&b','))?;
+    if !is_digit(bytes.get(comma + 1)) || !is_digit(comma.checked_sub(1).and_then(|before| bytes.get(before))) {
+        return None;
+    }
+    let is_whole = |byte: &&u8| byte.is_ascii_digit() || matches!(byte, b'-' | b'+' | b'_');
+    let start = comma - bytes[..comma].iter().rev().take_while(is_whole).count();
+    let end = comma + 1 + bytes[comma + 1..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let number = text.get(start..end)?.replace(',', ".");
+    is_behind_colon(text, start).then_some((start, number))
+}
+
+/// Whether a value begins at an offset.
+fn is_behind_colon(text: &str, offset: usize) -> bool {
+    text.get(..offset).is_some_and(|before| before.trim_end().ends_with(':'))
+}
+
+/// Where a sign stands last before the parser has stopped.
+fn before(text: &str, sign: &str, stop: usize) -> usize {
+    text.get(..stop).and_then(|read| read.rfind(sign)).unwrap_or(stop)
+}
+
+/// Where a word begins at or behind which the parser has stopped.
+fn start_of(text: &str, word: &str, stop: usize) -> usize {
+    let mut from = stop.saturating_sub(word.len() + 2);
+    while !text.is_char_boundary(from) {
+        from -= 1;
+    }
+    text[from..].find(word).map_or(stop, |found| from + found)
 }
 
 /// A problem at a byte offset.
@@ -165,7 +238,11 @@ fn stranger(what: &str, found: &str, known: &[&str]) -> String {
         .filter(|(distance, name)| *distance <= 1 + name.len().min(found.len()) / 4)
         .min();
     let meant = near.map_or(String::new(), |(_, name)| format!("did you mean `{name}`? "));
-    format!("there is no {what} `{found}` here; {meant}use {}", list(known, ""))
+    let found = printable(found);
+    match known {
+        [] => format!("there is no {what} `{found}` here; remove it"),
+        _ => format!("there is no {what} `{found}` here; {meant}use {}", list(known, "")),
+    }
 }
 
 /// The message for a value of the wrong type: what was found, and what would be right.

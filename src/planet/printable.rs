@@ -14,6 +14,12 @@ fn turns(c: char) -> bool {
     matches!(c, '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
+/// A number in few digits, however great or small it is: `1e300` has 301.
+pub(crate) fn number_text(number: f64) -> String {
+    let is_plain = number == 0.0 || (1e-6..1e15).contains(&number.abs());
+    if is_plain { number.to_string() } else { format!("{number:e}") }
+}
+
 /// A text with escapes in the place of such characters. Those of turning ones are JSON's, which the same text may be.
 pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     if !text.contains(|c| commands(c) || turns(c)) {
@@ -36,6 +42,12 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let texts = [0.0, -5.0, 1e9, 0.001, 1e300, -1.5e-300, 5e-324, f64::NAN, f64::NEG_INFINITY].map(number_text);
+        assert_eq!(texts, ["0", "-5", "1000000000", "0.001", "1e300", "-1.5e-300", "5e-324", "NaN", "-inf"]);
+    }
 
     #[test]
     fn what_commands_or_turns_is_escaped_and_nothing_else() {

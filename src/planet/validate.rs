@@ -8,6 +8,7 @@ use super::edits::{
 };
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Params as _, Segment};
+use super::printable::number_text;
 use super::structure::MAX_PLATES;
 use super::{
     EditPoint, GroundEdit, GroundEdits, Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet,
@@ -155,7 +156,7 @@ fn masks(layers: &[Layer], index: usize, layer: &Layer, found: &mut Found) {
         }
         let [from, to] = mask.ends();
         if from.1 == to.1 {
-            let message = format!("`{}` equals `{}` ({}); use two different numbers", to.0, from.0, to.1);
+            let message = format!("`{}` equals `{}` ({}); use two different numbers", to.0, from.0, number_text(to.1));
             found.add(path(to.0), message);
         }
     }
@@ -230,6 +231,7 @@ fn points(index: usize, edit: &GroundEdit, found: &mut Found) {
             (point.strength, 0.0, 1.0, "strength", ""),
         ] {
             if !(least..=most).contains(&value) {
+                let value = number_text(value);
                 let message = format!("the {what} {value} is out of range; use {least} to {most}{unit}");
                 found.add(item(&list(), number, None), message);
                 return;
@@ -323,6 +325,7 @@ fn biomes(biomes: &parts::Biomes, found: &mut Found) {
         // Non-finite numbers are already reported.
         if low > high || (strict && low == high) {
             let right = if strict { "more than" } else { "at least" };
+            let (low, high) = (number_text(low), number_text(high));
             found.add(biomes_path(high_name), format!("{high} is out of order; use {right} `{low_name}` ({low})"));
         }
     };

@@ -4,7 +4,7 @@
 //! - `extremes`: valid planets at the ends of their ranges
 //! - `idle`: parameters without effect
 //! - `header`: the C header
-//! - `fuzz`: changed files of strangers
+//! - `fuzz`: changed files of strangers; `words`: what is said of them
 //! - `saving`: saves that are killed; `beside`: edits in a file beside the preset
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
@@ -52,6 +52,7 @@ mod terrain;
 mod trial;
 mod walker;
 mod water;
+mod words;
 
 #[path = "../support"]
 mod support {

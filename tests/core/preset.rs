@@ -241,7 +241,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         ),
         (
             "(version: 3, layers: [(curve: [(0)])])",
-            "f.ron:1:32: layers[0].curve[0]: 1 numbers are too few; use two for each point: `(from, to)`",
+            "f.ron:1:32: layers[0].curve[0]: 1 number is too few; use two for each point: `(from, to)`",
         ),
         (
             "(version: 3, layers: [(curve: 3)])",

@@ -1,6 +1,7 @@
 //! The value of a parameter: copied out, borrowed, or borrowed to be written.
 
 use super::description::{Curve, Domain, MAX_CURVE_POINTS, Param, Unit};
+use crate::planet::printable::number_text;
 
 /// A choice between named values.
 pub trait Choice {
@@ -132,13 +133,15 @@ impl Value {
             (Value::Number(v), Domain::Number { .. }) if !v.is_finite() => {
                 Some(format!("{v} is not a finite number; use {}", param.range_text()))
             }
-            (Value::Number(v), Domain::Number { min, max, .. }) if *v < min || *v > max => out_of_range(v.to_string()),
+            (Value::Number(v), Domain::Number { min, max, .. }) if *v < min || *v > max => {
+                out_of_range(number_text(*v))
+            }
             (Value::Count(v), Domain::Count { min, max }) if *v < min || *v > max => out_of_range(v.to_string()),
             (Value::Triple(v), Domain::Color | Domain::Triple { .. }) => {
                 let max = if let Domain::Triple { max } = param.domain { max } else { 1.0 };
                 let bad = v.iter().find(|c| !c.is_finite() || **c < 0.0 || **c > max)?;
                 if bad.is_finite() {
-                    out_of_range(bad.to_string())
+                    out_of_range(number_text(*bad))
                 } else {
                     Some(format!("{bad} is not a finite number; use {}", param.range_text()))
                 }
@@ -180,6 +183,7 @@ fn curve_problem(points: &[[f64; 2]], most: f64, least_step: f64, param: &Param)
     }
     for (i, point) in points.iter().enumerate() {
         if let Some(bad) = point.iter().find(|v| !v.is_finite() || v.abs() > most) {
+            let bad = number_text(*bad);
             return Some(format!("point {} has {bad}, which is out of range; use {}", i + 1, param.range_text()));
         }
     }
