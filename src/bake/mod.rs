@@ -17,6 +17,7 @@
 //! - `png`, `openexr`, `geotiff`, `ktx2`, `raw`: encoders; `sidecar`: the JSON beside a map
 //! - `mesh`: meshes with textures
 //! - `edits`: ground edits as a height picture
+//! - `outputs`: what bakes will write, known before; `room`: whether the disk takes it
 //! - `preview`: a small picture of a map; `progress`, `error`
 
 mod edits;
@@ -32,11 +33,14 @@ mod occlusion;
 mod openexr;
 mod output;
 mod pieces;
+mod plan;
 mod png;
 mod preview;
 mod progress;
 mod projection;
 mod raw;
+#[cfg(feature = "cli")]
+pub(crate) mod room;
 mod rows;
 mod sidecar;
 mod strips;
@@ -51,6 +55,7 @@ pub use format::Format;
 pub(crate) use format::srgb_byte;
 pub use maps::Map;
 pub use pieces::{Landscape, Quadtree};
+pub use plan::MapPlan;
 pub use preview::Preview;
 pub use projection::{Projection, Region};
 
@@ -58,7 +63,7 @@ use crate::made::identity;
 use crate::planet::Key;
 use crate::planet::file::Target;
 use crate::terrain::Terrain;
-use output::BakedFile;
+use plan::BakedFile;
 use progress::Progress;
 use projection::{Grid, longest_side_km};
 use rayon::prelude::*;
@@ -300,19 +305,7 @@ impl Bake {
                 return Err(format!("{name} has {} channels, r16 holds one; use png16, tiff16 or exr", map.channels()));
             }
         }
-        let size = self.size;
-        if !(2..=MAX_SIZE).contains(&size) {
-            return Err(format!("a size of {size} is out of range; use 2 to {MAX_SIZE}"));
-        }
-        if self.projection == Projection::Equirect && !size.is_multiple_of(2) {
-            return Err(format!("{size} is odd, and the map is half as high as wide; use {}", size + 1));
-        }
-        match &self.projection {
-            Projection::Region(region) => region.check(planet)?,
-            Projection::Landscape(landscape) => landscape.check(planet, size)?,
-            Projection::Quadtree(tree) => tree.check(size)?,
-            Projection::Equirect | Projection::Cube => {}
-        }
+        self.projection.check(planet, self.size)?;
         if !self.time_secs.is_finite() {
             return Err(format!("a time of {} s is out of range; use a finite number", self.time_secs));
         }

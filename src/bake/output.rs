@@ -7,6 +7,7 @@
 use super::format::{Format, Shape, Steps};
 use super::geotiff::{self, Ground, Place};
 use super::maps::Map;
+use super::plan::{BakedFile, MapPlan};
 use super::progress::Progress;
 use super::projection::{Grid, Projection, Region};
 use super::rows::Rows;
@@ -20,56 +21,17 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::Write as _;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Longest description that is read.
 const MOST_BYTES: u64 = 1 << 24;
 
-/// A file that is to be written.
-pub(super) struct BakedFile {
-    pub(super) path: PathBuf,
-    /// The JSON that describes it. All tiles of a quadtree have one.
-    pub(super) about: PathBuf,
-    /// Its pictures: one, or the six faces of a cube.
-    pictures: Range<usize>,
-    /// Index of the map.
-    map: usize,
-}
-
 impl Bake {
     /// The files of all maps; those that one description describes follow each other.
     pub(super) fn files(&self, folder: &Path) -> Vec<BakedFile> {
-        let grid = Grid::new(&self.projection, self.size, self.terrain.planet().radius_km);
-        let pictures = grid.pictures();
-        let mut files = Vec::new();
-        for (index, map) in self.maps.iter().enumerate() {
-            let (name, ending) = (map.name(), self.format.extension());
-            let mut push = |pictures: Range<usize>, piece: &str| {
-                let path = folder.join(format!("{name}{piece}.{ending}"));
-                let about = match self.projection {
-                    Projection::Quadtree(_) => folder.join(format!("{name}.json")),
-                    _ => path.with_extension("json"),
-                };
-                files.push(BakedFile { path, about, pictures, map: index });
-            };
-            if self.format == Format::Ktx2 && self.projection == Projection::Cube {
-                push(0..pictures, "");
-                continue;
-            }
-            for picture in 0..pictures {
-                let piece = match &self.projection {
-                    Projection::Landscape(landscape) => {
-                        let [column, row] = landscape.place(picture);
-                        format!("_x{column}_y{row}")
-                    }
-                    Projection::Quadtree(tree) => format!("/{}", tree.name(picture)),
-                    _ => grid.face(picture).map_or(String::new(), |face| format!("_{face}")),
-                };
-                push(picture..picture + 1, &piece);
-            }
-        }
-        files
+        let Self { maps, projection, size, format, .. } = self;
+        let grid = Grid::new(projection, *size, self.terrain.planet().radius_km);
+        MapPlan { maps, projection: *projection, size: *size, format: *format }.baked(&grid, folder)
     }
 
     /// What made the files: the strips, and how they were encoded.

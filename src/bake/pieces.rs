@@ -95,6 +95,8 @@ impl Landscape {
 impl Quadtree {
     /// Tile width in pixels, unless another one is asked for.
     pub const SIZE: u32 = 256;
+    /// The finest level that there can be, where the number of tiles allows it.
+    pub const MOST_LEVELS: u8 = 20;
 
     /// Width of a picture for tiles of `size` pixels.
     pub(super) fn picture(self, size: u32) -> u32 {
@@ -137,7 +139,10 @@ impl Quadtree {
     /// What is wrong with it.
     pub(super) fn check(self, size: u32) -> Result<(), String> {
         if self.tiles() > MAX_TILES {
-            let most = (0..20).take_while(|levels| Self { levels: *levels, ..self }.tiles() <= MAX_TILES).count() - 1;
+            let most = (0..Self::MOST_LEVELS)
+                .take_while(|levels| Self { levels: *levels, ..self }.tiles() <= MAX_TILES)
+                .count()
+                - 1;
             return Err(format!("{} levels are out of range; use 0 to {most}", self.levels));
         }
         if self.apron > size / 8 {

@@ -8,6 +8,7 @@
 //!   centre; north is up there. Square pixels.
 //! - Landscapes and quadtrees have many pictures: see [`super::pieces`].
 
+use super::MAX_SIZE;
 use super::pieces::{Landscape, Quadtree};
 use crate::planet::Planet;
 use crate::sphere::cube::texture_direction;
@@ -61,6 +62,22 @@ impl Region {
 }
 
 impl Projection {
+    /// Whether a planet can be baked like this, `size` pixels wide.
+    pub(super) fn check(&self, planet: &Planet, size: u32) -> Result<(), String> {
+        if !(2..=MAX_SIZE).contains(&size) {
+            return Err(format!("a size of {size} is out of range; use 2 to {MAX_SIZE}"));
+        }
+        match self {
+            Projection::Equirect if !size.is_multiple_of(2) => {
+                Err(format!("{size} is odd, and the map is half as high as wide; use {}", size + 1))
+            }
+            Projection::Equirect | Projection::Cube => Ok(()),
+            Projection::Region(region) => region.check(planet),
+            Projection::Landscape(landscape) => landscape.check(planet, size),
+            Projection::Quadtree(tree) => tree.check(size),
+        }
+    }
+
     /// Angle between two pixels beside each other, where they are farthest apart.
     pub(super) fn spacing_rad(&self, size: u32, radius_km: f64) -> f64 {
         match self {

@@ -11,7 +11,6 @@ pub(super) struct RegionArgs {
         long,
         help = "Latitude of the centre of a region in degrees, north positive [default: the whole globe]",
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::latitude,
         requires_all = ["lon", "km"]
     )]
@@ -20,7 +19,6 @@ pub(super) struct RegionArgs {
         long,
         help = "Longitude of the centre of a region in degrees, east positive",
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::longitude,
         requires_all = ["lat", "km"]
     )]

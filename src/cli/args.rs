@@ -1,7 +1,10 @@
 //! Parsers of sizes, angles and locations on the command line. Each error says what would be right.
 
 use crate::giant::DEEPEST_M;
+use crate::planet::printable::number_text;
 use crate::render::Post;
+use std::fmt::Display;
+use std::str::FromStr;
 
 /// Largest side of a picture, in pixels.
 const MAX_SIDE: u32 = 32_768;
@@ -15,8 +18,19 @@ const MOST_SHARDS: u32 = 65_536;
 fn number(text: &str, min: f64, max: f64) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value >= min && value <= max => Ok(value),
-        Ok(value) => Err(format!("{value} is out of range; use {min} to {max}")),
+        Ok(value) => Err(format!("{} is out of range; use {min} to {max}", number_text(value))),
         Err(_) => Err(format!("this is not a number; use {min} to {max}")),
+    }
+}
+
+/// A whole number from `min` to `max`.
+pub(super) fn whole<T: FromStr + PartialOrd + Display + Copy>(text: &str, min: T, max: T) -> Result<T, String> {
+    match (text.parse::<T>(), text.parse::<f64>()) {
+        (Ok(value), _) if value >= min && value <= max => Ok(value),
+        (_, Ok(number)) if number == number.trunc() => {
+            Err(format!("{} is out of range; use {min} to {max}", number_text(number)))
+        }
+        _ => Err(format!("this is not a whole number; use {min} to {max}")),
     }
 }
 
@@ -44,6 +58,7 @@ pub(super) fn field_of_view(text: &str) -> Result<f64, String> {
 pub(super) fn altitude(text: &str) -> Result<f64, String> {
     match number(text, -DEEPEST_M, 1e12) {
         Ok(altitude_m) if altitude_m.abs() < 0.1 => {
+            let altitude_m = number_text(altitude_m);
             Err(format!("{altitude_m} is on the surface; use 0.1 or more, or -0.1 or less for a depth under the sea"))
         }
         other => other,
@@ -192,6 +207,14 @@ mod tests {
         assert_eq!(location("-10, 30.5"), Ok((-10.0, 30.5)));
         assert_eq!(location("91,0"), Err("latitude: 91 is out of range; use -90 to 90".to_owned()));
         assert!(location("10").unwrap_err().contains("LAT,LON"));
+        assert_eq!(latitude("1e300"), Err("1e300 is out of range; use -90 to 90".to_owned()));
+        assert_eq!(whole("7", 1_u32, 9), Ok(7));
+        for wrong in ["-7", "0", "10", "1e300", "99999999999999999999"] {
+            assert!(whole(wrong, 1_u8, 9).unwrap_err().contains("is out of range; use 1 to 9"), "{wrong}");
+        }
+        for wrong in ["", "x", "1.5", "NaN"] {
+            assert_eq!(whole(wrong, 1_u32, 9), Err("this is not a whole number; use 1 to 9".to_owned()), "{wrong}");
+        }
         assert_eq!(latitude("NaN"), Err("NaN is out of range; use -90 to 90".to_owned()));
         assert_eq!(altitude("-20"), Ok(-20.0));
         assert_eq!((shard("2/8"), heights("-5, 7.5")), (Ok((2, 8)), Ok([-5.0, 7.5])));

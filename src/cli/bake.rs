@@ -1,8 +1,10 @@
 //! `tellus bake`: maps of a planet in files.
 
 use super::work::{WorkArgs, in_words, told};
-use super::{Failure, args, load, maps, tell};
-use crate::bake::{Bake, Detail, Format, Landscape, MAX_SIZE, Map, Outcome, Projection, Quadtree, Region, Shard};
+use super::{Failure, args, load_as_source, maps, outputs, tell};
+use crate::bake::{
+    Bake, Detail, Format, Landscape, MAX_SIZE, Map, MapPlan, Outcome, Projection, Quadtree, Region, Shard,
+};
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -42,16 +44,16 @@ pub(super) struct Args {
     projection: String,
     /// Width in pixels of the map, of a face or of a tile [default: 2048; of a tile of a landscape 1009, of a quadtree
     /// 256]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_SIZE)))]
+    #[arg(long, value_name = "N", value_parser = |text: &str| args::whole(text, 2, MAX_SIZE))]
     size: Option<u32>,
     /// Tiles along each side of a landscape [default: 1]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = |text: &str| args::whole(text, 1, MAX_SIZE))]
     tiles: Option<u32>,
     /// The finest level of a quadtree, which has 2^N tiles along each side of the six faces [default: 3]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = |text: &str| args::whole(text, 0, Quadtree::MOST_LEVELS))]
     levels: Option<u8>,
     /// Pixels of the neighbours around each tile of a quadtree [default: 1]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = |text: &str| args::whole(text, 0, MAX_SIZE / 8))]
     apron: Option<u32>,
     /// png8, png16, tiff16 and r16 are whole numbers that run linearly between min and max of the JSON; exr and tiff
     /// are floats of 32 bits, exr16 of 16; tiff is georeferenced; r16 has no header; ktx2 is a texture with mip levels
@@ -66,7 +68,6 @@ pub(super) struct Args {
         long,
         help = "Latitude of the centre of a region in degrees, north positive",
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::latitude,
         required_if_eq_any([("projection", "region"), ("projection", "landscape")])
     )]
@@ -75,7 +76,6 @@ pub(super) struct Args {
         long,
         help = "Longitude of the centre of a region in degrees, east positive",
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::longitude,
         required_if_eq_any([("projection", "region"), ("projection", "landscape")])
     )]
@@ -99,10 +99,10 @@ pub(super) struct Args {
     )]
     detail: Detail,
     /// Heights in metres that whole numbers run between [default: the lowest and the highest of the map]
-    #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = args::heights)]
+    #[arg(long, value_name = "MIN,MAX", value_parser = args::heights)]
     range: Option<[f64; 2]>,
     /// Time in seconds, for clouds
-    #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::seconds)]
     time: f64,
     /// Make only the part I of N of the strips, such as 2/8
     #[arg(long, value_name = "I/N", value_parser = args::shard)]
@@ -113,15 +113,20 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     args.work.begin()?;
-    let planet = Arc::new(load(&args.file)?);
+    let (planet, sources) = load_as_source(&args.file)?;
     let projection = projection(args)?;
     let usual = match projection {
         Projection::Landscape(_) => Landscape::SIZE,
         Projection::Quadtree(_) => Quadtree::SIZE,
         _ => SIZE,
     };
+    let size = args.size.unwrap_or(usual);
+    let plan = MapPlan { maps: &args.what, projection, size, format: args.format };
+    outputs::check_files_in(&args.output, &sources, &plan.files(&planet, &args.output)?)?;
+    let parts = u64::from(args.shard.map_or(1, |(_, count)| count));
+    outputs::check_disk(&args.output, plan.least_bytes(&planet)? / parts, Some("strip"))?;
     let terrain = Arc::new(maps::terrain(planet)?);
-    let mut bake = Bake::new(terrain, args.what.clone(), projection, args.size.unwrap_or(usual), args.format);
+    let mut bake = Bake::new(terrain, args.what.clone(), projection, size, args.format);
     bake.detail = args.detail;
     bake.time_secs = args.time;
     bake.heights_m = args.range;

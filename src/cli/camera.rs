@@ -22,7 +22,6 @@ pub(super) struct CameraArgs {
         long,
         value_name = "DEG",
         default_value_t = Camera::DEFAULT_FOV_Y_RAD.to_degrees(),
-        allow_hyphen_values = true,
         value_parser = args::field_of_view
     )]
     pub(super) fov: f64,
@@ -43,7 +42,7 @@ pub(super) struct CameraArgs {
     #[arg(long, value_name = "BITS", value_parser = ["8", "16"])]
     pub(super) bits: Option<String>,
     /// Exposure in stops, 0 for a sunlit planet [default: metered from the picture]
-    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = args::exposure)]
+    #[arg(long, value_name = "EV", value_parser = args::exposure)]
     pub(super) exposure: Option<f64>,
     /// Colour temperature in kelvins that is shown white: lower makes the picture bluer
     #[arg(long, value_name = "K", default_value_t = Post::DAYLIGHT_K, value_parser = args::white)]
@@ -61,7 +60,7 @@ pub(super) struct CameraArgs {
     #[arg(long, value_enum, default_value_t = Quality::High)]
     pub(super) quality: Quality,
     /// Seconds for building the ground of each picture, which then stays as fine as it is [default: until it is done]
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = args::ground_seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = args::ground_seconds)]
     pub(super) ground_seconds: Option<f64>,
     /// Memory for the ground of each picture, coarser if more would be needed [default: what the quality takes]
     #[arg(long, value_name = "MIB", value_parser = args::ground_mib)]

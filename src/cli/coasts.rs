@@ -2,14 +2,13 @@
 
 use super::geojson::{self, feature, rounded};
 use super::polygons::{Lines, Polygon};
-use super::{Failure, args, load, maps};
-use crate::planet::file::{Target, write_atomically};
+use super::{Failure, args, load_as_source, maps, outputs};
+use crate::planet::file::write_atomically;
 use crate::terrain::Contour;
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::f64::consts::FRAC_PI_2;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// Cells along a side of a face, unless a spacing is given.
 const DEFAULT_CELLS: u32 = 1024;
@@ -27,7 +26,7 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "OUT.geojson")]
     output: PathBuf,
     /// Height of the lines over the reference sphere [default: the sea level]
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::level)]
+    #[arg(long, value_name = "METRES", value_parser = args::level)]
     height: Option<f64>,
     /// Greatest distance between points: islands and bays that are smaller are left out [default: 1/1024 of a quarter
     /// of the equator]
@@ -49,7 +48,9 @@ enum Shape {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let planet = Arc::new(load(&args.file)?);
+    outputs::check_ending(&args.output, geojson::ENDINGS)?;
+    let (planet, sources) = load_as_source(&args.file)?;
+    outputs::check_files(&sources, &[&args.output])?;
     planet.check_ground()?;
     let Some(height_m) = args.height.or(planet.sea_level_m()) else {
         let file = args.file.display();
@@ -65,7 +66,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return Err(format!("--spacing: too small for the whole globe; use {least_m:.3} m or more").into());
     }
     let failed = |error: String| format!("{}: {error}", args.output.display());
-    Target::checked(&args.output).map_err(failed)?;
     let terrain = maps::terrain(planet)?;
     let lines = terrain.contours(height_m, cells);
     let kept = lines.iter().filter(|line| line.length_km >= args.min_length);

@@ -1,12 +1,13 @@
 //! `tellus film`: the frames of a flight over the bookmarks of a planet.
 
 use super::camera::{CameraArgs, told};
+use super::system::{self, Subject};
 use super::work::WorkArgs;
-use super::{Failure, args, headless, load, maps, system, tell};
+use super::{Failure, args, headless, maps, outputs, tell};
 use crate::film::{CameraPath, Film, Sequence};
 use crate::planet::{Bookmark, Planet};
 use crate::render::{Photo, Renderer};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Draw a flight over the bookmarks of a planet, or of a body of a system, as numbered frames
@@ -28,13 +29,13 @@ pub(super) struct Args {
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = args::length_secs)]
     seconds: f64,
     /// Frames of each second
-    #[arg(long, value_name = "N", default_value = "30", value_parser = clap::value_parser!(u32).range(1..=240))]
+    #[arg(long, value_name = "N", default_value = "30", value_parser = |text: &str| args::whole(text, 1_u32, 240))]
     fps: u32,
     /// Time in seconds at the first frame; it moves the star, the clouds and the waves
-    #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::seconds)]
     time: f64,
     /// Seconds of the planet that pass in each second of the film
-    #[arg(long, value_name = "FACTOR", default_value = "1", allow_hyphen_values = true, value_parser = args::seconds)]
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = args::seconds)]
     speed: f64,
     /// Go on where a film was interrupted: keep frames that are whole and that the same film made, which way.frames
     /// lists, and draw all others
@@ -46,16 +47,20 @@ pub(super) struct Args {
     work: WorkArgs,
 }
 
+/// Pixels whose colours are packed into a byte of a file at most: those of a dark sky take little.
+const PACKED: u64 = 16;
+
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     args.work.begin()?;
-    let system = args.body.as_ref().map(|body| system::place(&args.file, body)).transpose()?;
-    let planet = match &system {
-        Some(system) => Arc::new(system::lit_planet(system, args.time)?),
-        None => Arc::new(load(&args.file)?),
-    };
+    let Subject { planet, system, sources } = system::subject(&args.file, args.body.as_deref(), args.time)?;
     let camera = &args.camera;
     camera.check_view(&planet, &args.file)?;
     let kind = camera.kind(&args.output)?;
+    let film = Film { secs: args.seconds, fps: args.fps, speed: args.speed };
+    outputs::check_files(&sources, &film.files(&args.output))?;
+    let pixels = camera.size.map(u64::from).iter().product::<u64>();
+    let least_bytes = film.frames() as u64 * (pixels / PACKED);
+    outputs::check_disk(args.output.parent().unwrap_or(Path::new("")), least_bytes, args.resume.then_some("png"))?;
     let bookmarks = chosen(&planet, &args.over).map_err(|error| format!("{}: {error}", args.file.display()))?;
     let gpu = headless::Gpu::open(camera.size.map(|side| side.min(Photo::MOST_TILE_PX)))?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
@@ -65,7 +70,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     let mut first = camera.shot(&terrain, path.camera(&terrain, 0.0), args.time);
     first.system = system;
-    let film = Film { secs: args.seconds, fps: args.fps, speed: args.speed };
     let mut sequence = Sequence::film(first, path, film, &args.output, kind);
     sequence.resumes = args.resume;
     let taken = gpu.checked(|| sequence.take(&mut renderer, &mut told()))?;

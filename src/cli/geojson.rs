@@ -5,6 +5,9 @@ use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
+/// The endings of its files' names.
+pub(super) const ENDINGS: &[&str] = &["geojson", "json"];
+
 /// A point of a line.
 pub(super) trait Place: Copy {
     fn place(&self) -> LatLon;

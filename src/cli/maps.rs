@@ -1,9 +1,10 @@
 //! `tellus maps`: the world maps of presets, solved ahead; and the folder in which this program keeps its own.
 
 use super::work::told as told_of;
-use super::{Failure, load, tell};
+use super::{Failure, load, outputs, tell};
+use crate::planet::sources::Sources;
 use crate::terrain::{MapStore, Terrain};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Names the folder of world maps instead of the user's cache folder; empty for none.
@@ -24,6 +25,8 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    // The names of maps are the store's own.
+    outputs::check_files_in(&args.output, &Sources::default(), &[] as &[&Path])?;
     let store = Arc::new(MapStore::new(&args.output, u64::MAX));
     for file in &args.files {
         let planet = load(file)?;

@@ -2,11 +2,11 @@
 
 use super::area::{DetailArgs, RegionArgs, tell_slow};
 use super::work::{WorkArgs, told};
-use super::{Failure, args, load, maps};
+use super::{Failure, args, load_as_source, maps, outputs};
+use crate::bake::MAX_SIZE;
 use crate::bake::mesh::{Area, MeshBake, MeshFormat, MeshWater};
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
 
 /// Write a planet or a region as a mesh: glTF 2.0 (GLB) or OBJ
 #[derive(clap::Args)]
@@ -29,7 +29,7 @@ pub(super) struct Args {
     #[command(flatten)]
     region: RegionArgs,
     /// Width of textures of colour, normals and roughness, of each square; without it vertices have colours
-    #[arg(long, value_name = "PIXELS")]
+    #[arg(long, value_name = "PIXELS", value_parser = |text: &str| args::whole(text, 2, MAX_SIZE))]
     texture: Option<u32>,
     /// surface: the mesh runs on seas, lakes and rivers, which are opaque. apart: on the ground, with a transparent
     /// mesh of the water over it. none: on the ground, without water
@@ -42,7 +42,7 @@ pub(super) struct Args {
     water: MeshWater,
     /// Levels of detail, each with half the vertices of the one before along a side: nodes NAME_LOD0, NAME_LOD1 and so
     /// on, linked by MSFT_lod in a .glb
-    #[arg(long, value_name = "N", default_value = "1")]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = |text: &str| args::whole(text, 1, MeshBake::MOST_LEVELS))]
     lods: u32,
     /// Depth of skirts around the squares, which hide gaps between levels of detail: at most half the planet's radius,
     /// and with --quantize a side of a square
@@ -66,7 +66,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let path = args.output.display();
         return Err(format!("{path}: the ending names no kind of mesh; use .glb or .obj").into());
     };
-    let planet = Arc::new(load(&args.file)?);
+    let (planet, sources) = load_as_source(&args.file)?;
     let area = args.region.region().map_or(Area::Globe, Area::Region);
     let cells = MeshBake::cells_for(&area, planet.radius_m(), args.spacing, args.lods);
     let mesh = MeshBake {
@@ -80,6 +80,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         ..MeshBake::new(area, cells, format)
     };
     mesh.check(&planet)?;
+    outputs::check_files(&sources, &mesh.files(planet.radius_m(), &args.output))?;
+    outputs::check_disk(args.output.parent().unwrap_or(Path::new("")), mesh.least_bytes(), None)?;
     if mesh.is_slow(&planet) {
         tell_slow();
     }

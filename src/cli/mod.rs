@@ -7,6 +7,7 @@
 //! - `points`: many points for `sample`
 //! - `work`: threads, and progress of long work
 //! - `headless`: a GPU without a window
+//! - `outputs`: what every command checks before it writes files
 //! - `logging`: what is logged, and the log file of the editor
 //! - `camera`: what a photographer sets, for `render` and `film`
 //!
@@ -27,6 +28,7 @@ mod maps;
 mod mesh;
 mod nearest;
 mod new;
+mod outputs;
 mod points;
 mod polygons;
 mod render;
@@ -40,11 +42,14 @@ mod work;
 use crate::planet::Planet;
 use crate::planet::picture::is_contained;
 use crate::planet::printable::printable;
+use crate::planet::sources::Sources;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use logging::Logging;
+use std::any::TypeId;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 /// Shape a whole planet with live sliders, save it as one RON preset, draw and query it from scripts.
 #[derive(Parser)]
@@ -95,6 +100,7 @@ impl From<String> for Failure {
 
 /// Runs the program with the arguments of this process.
 pub fn run() -> ExitCode {
+    ignore_limit_signal();
     let logging = Logging::start();
     // A panic of a picture decoder is reported as a problem of the preset, with its line: the panic is not printed.
     let print_panic = std::panic::take_hook();
@@ -103,14 +109,14 @@ pub fn run() -> ExitCode {
             print_panic(panic);
         }
     }));
-    let cli = match Cli::command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
+    let cli = match command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
-            // Help goes to standard output. It is no failure if nobody reads it. Errors repeat what was typed.
-            let _ = match error.use_stderr() {
-                true => write!(io::stderr(), "{}", printable(&error.render().to_string())),
-                false => error.print(),
-            };
+            // Help goes to standard output. Errors repeat what was typed.
+            if !error.use_stderr() {
+                return ended(written(error.print().and_then(|()| io::stdout().flush())).map(drop));
+            }
+            let _ = write!(io::stderr(), "{}", printable(&error.render().to_string()));
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
@@ -132,6 +138,11 @@ pub fn run() -> ExitCode {
         Some(Command::New(args)) => new::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
     };
+    ended(result)
+}
+
+/// The exit status of a result, after its message.
+fn ended(result: Result<(), Failure>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -140,6 +151,36 @@ pub fn run() -> ExitCode {
             }
             ExitCode::FAILURE
         }
+    }
+}
+
+/// The arguments. What begins with a hyphen after an option with a number is its value, so that a negative one hears
+/// the range; it is no option of its own.
+fn command() -> clap::Command {
+    let numbers = [
+        TypeId::of::<f64>(),
+        TypeId::of::<[f64; 2]>(),
+        TypeId::of::<(f64, f64)>(),
+        TypeId::of::<u8>(),
+        TypeId::of::<u32>(),
+        TypeId::of::<u64>(),
+        TypeId::of::<[u32; 2]>(),
+        TypeId::of::<(u32, u32)>(),
+    ];
+    let of_number = |arg: clap::Arg| {
+        let is_number = numbers.iter().any(|number| arg.get_value_parser().type_id() == *number);
+        if is_number { arg.allow_hyphen_values(true) } else { arg }
+    };
+    Cli::command().mut_subcommands(|command| command.mut_args(of_number))
+}
+
+/// Makes a file that grows beyond the user's limit (`ulimit -f`) an error of the write, as a full disk is. Unless it is
+/// ignored, a signal ends the program without a word.
+fn ignore_limit_signal() {
+    #[cfg(unix)]
+    // SAFETY: no other thread runs yet, and nothing else handles this signal.
+    unsafe {
+        libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
     }
 }
 
@@ -165,6 +206,13 @@ fn load(path: &Path) -> Result<Planet, Failure> {
     Planet::load(path).map_err(|error| Failure::Message(error.to_string()))
 }
 
+/// A planet, and the files that no output may replace.
+fn load_as_source(path: &Path) -> Result<(Arc<Planet>, Sources), Failure> {
+    let planet = load(path)?;
+    let sources = Sources::of_preset(path, &planet);
+    Ok((Arc::new(planet), sources))
+}
+
 /// Prints a line on standard error.
 fn tell(line: &str) {
     let _ = writeln!(io::stderr(), "{}", printable(line));
@@ -178,7 +226,12 @@ fn print(text: &str) -> Result<(), Failure> {
 /// As [`print`]. Whether the reader is still there.
 fn print_on(text: &str) -> Result<bool, Failure> {
     let mut out = io::stdout().lock();
-    match writeln!(out, "{}", printable(text)).and_then(|()| out.flush()) {
+    written(writeln!(out, "{}", printable(text)).and_then(|()| out.flush()))
+}
+
+/// Whether the reader of standard output is still there, after something was written to it.
+fn written(result: io::Result<()>) -> Result<bool, Failure> {
+    match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(format!("cannot write to standard output: {error}").into())
         }
@@ -192,6 +245,6 @@ mod tests {
 
     #[test]
     fn the_arguments_are_declared_without_contradiction() {
-        Cli::command().debug_assert();
+        command().debug_assert();
     }
 }

@@ -25,7 +25,6 @@ pub(super) struct Args {
         long,
         help = "Latitude of the start in degrees, north positive",
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::latitude
     )]
     lat: f64,
@@ -33,7 +32,6 @@ pub(super) struct Args {
         long,
         help = "Longitude of the start in degrees, east positive",
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::longitude
     )]
     lon: f64,
@@ -64,10 +62,10 @@ struct Property {
     #[arg(long, value_name = "DEGREES", value_parser = args::zenith)]
     slope: Option<f64>,
     /// Ground no lower than this over the reference sphere
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::level)]
+    #[arg(long, value_name = "METRES", value_parser = args::level)]
     above: Option<f64>,
     /// Ground no higher than this over the reference sphere
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::level)]
+    #[arg(long, value_name = "METRES", value_parser = args::level)]
     below: Option<f64>,
 }
 

@@ -5,12 +5,12 @@
 
 use super::sample::{Moment, as_json};
 use super::{Failure, args, print_on};
+use crate::planet::open::{Opened, open};
 use crate::sphere::{LatLon, curve};
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use rayon::prelude::*;
 use serde_json::json;
 use std::fmt::Display;
-use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read};
 use std::path::Path;
 
@@ -51,9 +51,17 @@ impl Points {
         let (name, lines, is_file): (String, Box<dyn Read>, bool) = if path == Path::new("-") {
             ("standard input".to_owned(), Box::new(io::stdin()), false)
         } else {
-            let file = File::open(path).map_err(|error| format!("{}: {error}", path.display()))?;
-            let is_file = file.metadata().is_ok_and(|about| about.is_file());
-            (path.display().to_string(), Box::new(file), is_file)
+            let file = open(path).map_err(|error| format!("{}: {error}", path.display()))?;
+            let file = match file {
+                Opened::File(file) => file,
+                Opened::Folder => return Err(format!("{}: is a folder; name a file", path.display()).into()),
+                Opened::Special => {
+                    let why =
+                        "is a device or a pipe, not a file; name a file, or - and give the points to standard input";
+                    return Err(format!("{}: {why}", path.display()).into());
+                }
+            };
+            (path.display().to_string(), Box::new(file), true)
         };
         Ok(Self { name, lines: BufReader::with_capacity(1 << 16, lines), number: 0, is_file })
     }

@@ -1,7 +1,8 @@
 //! `tellus render`: a picture of a planet, without a window.
 
 use super::camera::{CameraArgs, told};
-use super::{Failure, args, headless, load, maps, system};
+use super::system::{self, Subject};
+use super::{Failure, args, headless, maps, outputs};
 use crate::film::Sequence;
 use crate::lod::{Camera, opening};
 use crate::render::{Photo, Renderer};
@@ -29,7 +30,6 @@ pub(super) struct Args {
         long,
         help = format!("Latitude of the camera in degrees, north positive [default: {}]", opening::OPENING_LAT_DEG),
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::latitude
     )]
     lat: Option<f64>,
@@ -40,17 +40,16 @@ pub(super) struct Args {
             opening::OPENING_LON_FROM_STAR_DEG
         ),
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::longitude
     )]
     lon: Option<f64>,
     /// Altitude of the camera above the ground or the water on it, whichever is higher; negative: depth under water,
     /// or below the tops of a giant's clouds
     /// [default: far enough to see the whole planet]
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::altitude)]
+    #[arg(long, value_name = "METRES", value_parser = args::altitude)]
     altitude: Option<f64>,
     /// Heading of the camera in degrees: 0 north, 90 east
-    #[arg(long, value_name = "DEG", default_value = "0", allow_hyphen_values = true, value_parser = args::heading)]
+    #[arg(long, value_name = "DEG", default_value = "0", value_parser = args::heading)]
     heading: f64,
     #[arg(
         long,
@@ -61,32 +60,25 @@ pub(super) struct Args {
             opening::NEAR_PITCH_DEG
         ),
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::pitch
     )]
     pitch: Option<f64>,
     /// Location with the star overhead [default: from the preset, at --time]
-    #[arg(long, value_name = "LAT,LON", conflicts_with = "body", allow_hyphen_values = true, value_parser = args::location)]
+    #[arg(long, value_name = "LAT,LON", conflicts_with = "body", value_parser = args::location)]
     sun: Option<(f64, f64)>,
     /// Time in seconds; it moves the star, the clouds and the waves
-    #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::seconds)]
     time: f64,
     #[command(flatten)]
     camera: CameraArgs,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let system = match &args.body {
-        Some(body) => Some(system::place(&args.file, body)?),
-        None => None,
-    };
-    let planet = match &system {
-        Some(system) => Arc::new(system::lit_planet(system, args.time)?),
-        None => Arc::new(load(&args.file)?),
-    };
+    let Subject { planet, system, sources } = system::subject(&args.file, args.body.as_deref(), args.time)?;
     let camera = &args.camera;
     camera.check_view(&planet, &args.file)?;
     let kind = camera.kind(&args.output)?;
+    outputs::check_files(&sources, &[&args.output])?;
     let gpu = headless::Gpu::open(camera.size.map(|side| side.min(Photo::MOST_TILE_PX)))?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
     let terrain = Arc::new(maps::terrain(planet.clone())?);

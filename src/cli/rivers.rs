@@ -5,14 +5,13 @@
 //! mouths.
 
 use super::geojson::{self, Place, feature, lon_lat_deg, parts, rounded, shaped};
-use super::{Failure, args, load, maps};
+use super::{Failure, args, load_as_source, maps, outputs};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
 use crate::sphere::LatLon;
 use crate::terrain::{Basin, Course, CoursePoint, Lake, Mouth};
 use serde_json::{Value, json};
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// Least discharge unless it is given, in m³/s, on a planet of the radius of the Earth.
 const DEFAULT_M3_S: f64 = 100.0;
@@ -30,12 +29,14 @@ pub(super) struct Args {
     output: PathBuf,
     /// Least discharge of a river or basin in cubic metres a second, at its mouth; each river begins where it carries
     /// so much [default: 100 on a planet of the Earth's size, on others by their area]
-    #[arg(long, value_name = "M3S", allow_hyphen_values = true, value_parser = args::discharge)]
+    #[arg(long, value_name = "M3S", value_parser = args::discharge)]
     min_discharge: Option<f64>,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let planet = Arc::new(load(&args.file)?);
+    outputs::check_ending(&args.output, geojson::ENDINGS)?;
+    let (planet, sources) = load_as_source(&args.file)?;
+    outputs::check_files(&sources, &[&args.output])?;
     if planet.structure.is_none() {
         return Err(format!("{}: {} has no structure, so it has no rivers", args.file.display(), planet.name).into());
     }

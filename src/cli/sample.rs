@@ -24,7 +24,6 @@ pub(super) struct Args {
         long,
         help = "Latitude in degrees, north positive",
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::latitude,
         required_unless_present = "points"
     )]
@@ -33,7 +32,6 @@ pub(super) struct Args {
         long,
         help = "Longitude in degrees, east positive",
         value_name = "DEG",
-        allow_hyphen_values = true,
         value_parser = args::longitude,
         required_unless_present = "points"
     )]
@@ -48,7 +46,7 @@ pub(super) struct Args {
     #[arg(long, requires = "points", conflicts_with_all = ["json", "time"])]
     heights: bool,
     /// Time in seconds, for clouds and waves
-    #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::seconds)]
     time: f64,
     /// Print a JSON object: height_m, slope_deg, normal, temperature_c, precipitation_mm (a year), temperature and
     /// moisture (0 to 1, the axes of the biome table), biome, layers, water_level_m, water_surface_m (of the sea, with

@@ -18,16 +18,16 @@ pub(super) struct Args {
     #[arg(value_name = "FILE.ron")]
     file: PathBuf,
     /// Angle from the zenith to the star, in degrees
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::zenith)]
+    #[arg(long, value_name = "DEG", value_parser = args::zenith)]
     sun_zenith: f64,
     /// Angle from the zenith to the view ray, in degrees
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::zenith)]
+    #[arg(long, value_name = "DEG", value_parser = args::zenith)]
     view_zenith: f64,
     /// Angle about the zenith from the star to the view ray, in degrees
-    #[arg(long, value_name = "DEG", default_value = "0", allow_hyphen_values = true, value_parser = args::heading)]
+    #[arg(long, value_name = "DEG", default_value = "0", value_parser = args::heading)]
     azimuth: f64,
     /// Height of the eye above the reference sphere, which counts as the ground
-    #[arg(long, value_name = "METRES", default_value = "2", allow_hyphen_values = true, value_parser = args::height)]
+    #[arg(long, value_name = "METRES", default_value = "2", value_parser = args::height)]
     altitude: f64,
     /// Ask the shaders instead of the 64-bit reference
     #[arg(long, conflicts_with = "reference")]

@@ -1,11 +1,11 @@
 //! `tellus system`: where the bodies of a system are, and whether it lasts; and the camera of `render` in a system.
 
-use super::bake::told_of;
-use super::{Failure, args, maps, print, tell};
+use super::work::told as told_of;
+use super::{Failure, args, load_as_source, maps, print, tell};
 use crate::film::InSystem;
 use crate::lod::Camera;
 use crate::planet::Planet;
-use crate::planet::file::read_text;
+use crate::planet::sources::Sources;
 use crate::render::Worlds;
 use crate::sphere::LatLon;
 use crate::system::limits::{distance_text, hill_radii_m, warnings};
@@ -29,7 +29,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE.ron")]
     file: PathBuf,
     /// Time in seconds
-    #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::seconds)]
     time: f64,
     /// Run the system for this long under the attraction of all its bodies, and say what happens. Ctrl+C ends the run
     /// and shows what it came to. Exit status 1 if the result is not to be trusted
@@ -50,7 +50,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let worlds = load(&args.file)?;
+    let (worlds, _) = load(&args.file)?;
     let (system, radii_m) = (worlds.system(), worlds.radii_m());
     // A trial that is refused prints nothing else.
     let plan = args.trial.map(|years| {
@@ -196,36 +196,44 @@ fn told(system: &System, trial: &Trial) -> Vec<String> {
     lines
 }
 
-/// A system file and the presets that it names.
-fn load(file: &Path) -> Result<Worlds, Failure> {
-    let text = read_text(file).map_err(|error| error.to_string())?;
-    if !System::is_system(&text) && Planet::from_text("", &text).is_ok() {
-        return Err(format!("{}: this is a preset of one planet, not a system file", file.display()).into());
-    }
-    let system = System::from_text(&file.display().to_string(), &text).map_err(|error| error.to_string())?;
+/// A system file and the presets that it names; and these files.
+fn load(file: &Path) -> Result<(Worlds, Sources), Failure> {
+    let system = System::load(file).map_err(|error| error.to_string())?;
     let planets = system.load_planets(file).map_err(|error| error.to_string())?;
-    Ok(Worlds::new(system, planets))
+    let sources = system.sources(file, &planets);
+    Ok((Worlds::new(system, planets), sources))
 }
 
-/// The body of a system by its name.
-pub(super) fn place(file: &Path, body: &str) -> Result<InSystem, Failure> {
-    let worlds = load(file)?;
+/// What a picture shows.
+pub(super) struct Subject {
+    /// The planet under the camera.
+    pub(super) planet: Arc<Planet>,
+    /// The system that it is a body of.
+    pub(super) system: Option<InSystem>,
+    /// The files that no picture may replace.
+    pub(super) sources: Sources,
+}
+
+/// The planet of a preset, or a body of a system at a time.
+pub(super) fn subject(file: &Path, body: Option<&str>, time_secs: f64) -> Result<Subject, Failure> {
+    let Some(body) = body else {
+        let (planet, sources) = load_as_source(file)?;
+        return Ok(Subject { planet, system: None, sources });
+    };
+    let (worlds, sources) = load(file)?;
     let number = find(&worlds, "--body", body)?;
     if worlds.planet(number).is_none() {
         return Err(format!("--body: {body} has no surface; name a planet or a moon").into());
     }
-    Ok(InSystem::new(Arc::new(worlds), number, maps::kept()))
+    let system = InSystem::new(Arc::new(worlds), number, maps::kept());
+    let planet = system.planet(time_secs).ok_or_else(|| "the system has no star to light the body".to_owned())?;
+    Ok(Subject { planet: Arc::new(planet), system: Some(system), sources })
 }
 
 fn find(worlds: &Worlds, argument: &str, name: &str) -> Result<usize, Failure> {
     let names = || worlds.system().bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>().join(", ");
     let found = worlds.system().find(name);
     found.ok_or_else(|| format!("{argument}: there is no body {name:?}; there is: {}", names()).into())
-}
-
-/// The planet of a body in the light of its system.
-pub(super) fn lit_planet(system: &InSystem, time_secs: f64) -> Result<Planet, Failure> {
-    system.planet(time_secs).ok_or_else(|| "the system has no star to light the body".to_owned().into())
 }
 
 /// A camera turned towards another body, its top away from the ground.

@@ -2,11 +2,10 @@
 
 use super::area::{DetailArgs, RegionArgs, tell_slow};
 use super::work::{WorkArgs, told};
-use super::{Failure, load, maps, tell};
+use super::{Failure, args, load_as_source, maps, outputs, tell};
 use crate::bake::Outcome;
 use crate::bake::mesh::{MeshWater, Tileset};
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// Write a planet as 3D Tiles 1.1: a tree of GLB files that a viewer streams
 #[derive(clap::Args)]
@@ -24,13 +23,13 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// The finest level
-    #[arg(long, value_name = "N", default_value = "4")]
+    #[arg(long, value_name = "N", default_value = "4", value_parser = |text: &str| args::whole(text, 0, Tileset::MOST_LEVELS))]
     levels: u8,
     /// Cells along a side of a tile
-    #[arg(long, value_name = "N", default_value = "64")]
+    #[arg(long, value_name = "N", default_value = "64", value_parser = |text: &str| args::whole(text, 2, Tileset::MOST_CELLS))]
     cells: u32,
     /// Width of textures of colour, normals and roughness, of each tile; without it vertices have colours
-    #[arg(long, value_name = "PIXELS")]
+    #[arg(long, value_name = "PIXELS", value_parser = |text: &str| args::whole(text, 2, Tileset::MOST_TEXTURE))]
     texture: Option<u32>,
     /// surface: tiles run on seas, lakes and rivers. none: on the ground, without water
     #[arg(long, value_name = "CHOICE", default_value = "surface", value_parser = ["surface", "none"])]
@@ -53,7 +52,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     args.work.begin()?;
-    let planet = Arc::new(load(&args.file)?);
+    let (planet, sources) = load_as_source(&args.file)?;
     let tileset = Tileset {
         region: args.region.region(),
         cells: args.cells,
@@ -65,6 +64,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         ..Tileset::new(args.levels)
     };
     tileset.check(&planet)?;
+    outputs::check_files_in(&args.output, &sources, &tileset.files(&planet, &args.output))?;
+    outputs::check_disk(&args.output, tileset.least_bytes(&planet), Some("glb"))?;
     if tileset.is_slow(&planet) {
         tell_slow();
     }

@@ -27,6 +27,11 @@ impl Film {
     pub fn frames(&self) -> usize {
         (self.secs * f64::from(self.fps)).round().max(1.0) as usize
     }
+
+    /// The files of its frames.
+    pub fn files(&self, film: &Path) -> Vec<PathBuf> {
+        (1..=self.frames()).map(|number| frame_path(film, number)).collect()
+    }
 }
 
 /// A photograph, or a film: frames that are computed when their turn comes.

@@ -59,9 +59,7 @@ impl Staged {
     pub(crate) fn commit(self) -> Result<(), String> {
         let Self { unfinished, target } = self;
         let state = target.state();
-        unfinished
-            .persist(&target.path)
-            .map_err(|e| format!("cannot replace the file: {}; {state}", e.error))?;
+        unfinished.persist(&target.path).map_err(|e| format!("cannot replace the file: {}; {state}", e.error))?;
         // The rename must reach the disk, too. Not every system can open folders, and the file is complete already.
         #[cfg(unix)]
         if let Ok(folder) = File::open(&target.folder) {

@@ -367,7 +367,7 @@ fn what_cannot_be_baked_or_written_is_said() {
         assert!(found.0 == status && found.1.contains(part), "{found:?}");
         assert!(!out.exists(), "{more:?}");
     };
-    refused(2, &["--size", "65538"], "65538 is not in 2..=65536");
+    refused(2, &["--size", "65538"], "65538 is out of range; use 2 to 65536");
     refused(2, &["--what", "heights"], "[possible values: height, normal,");
     refused(2, &["--format", "jpg"], "[possible values: png8, png16, exr,");
     refused(2, &["--as", "mercator"], "[possible values: equirect, cube, region, landscape, quadtree]");
@@ -418,7 +418,7 @@ fn a_folder_that_cannot_be_written_is_said() {
         return;
     }
     let (status, told) = run(&["bake", LAYERED, "-o", out.to_str().unwrap(), "--size", "32"]);
-    assert!(status == 1 && told.contains("cannot make the folder"), "{told}");
+    assert!(status == 1 && told.contains("cannot write to the folder"), "{told}");
     assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
 }
 

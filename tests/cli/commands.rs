@@ -54,12 +54,13 @@ fn wrong_usage_is_status_2_and_says_what_would_be_right() {
         (vec!["render", LAYERED, "-o", "x.png", "--view", "nice"], "possible values: shaded, height"),
         (vec!["render", LAYERED, "-o", "x.png", "--quality", "best"], "possible values: low, medium, high"),
         (vec!["render", LAYERED, "-o", "x.png", "--altitude", "0"], "0 is on the surface; use 0.1 or more"),
-        (vec!["film", LAYERED, "-o", "x.png", "--fps", "0"], "0 is not in 1..=240"),
-        (vec!["film", LAYERED, "-o", "x.png", "--seconds", "-1"], "unexpected argument"),
+        (vec!["film", LAYERED, "-o", "x.png", "--fps", "0"], "0 is out of range; use 1 to 240"),
+        (vec!["film", LAYERED, "-o", "x.png", "--seconds", "-1"], "-1 is out of range; use 0 to 3600"),
         (vec!["film", LAYERED, "-o", "x.png", "--seconds", "4000"], "use 0 to 3600"),
         (vec!["check"], "<FILE.ron>"),
         (vec!["sample", LAYERED, "--lat", "1"], "--lon <DEG>"),
-        (vec!["new", "-o", "x.ron", "--seed", "x"], "invalid digit"),
+        (vec!["new", "-o", "x.ron", "--seed", "x"], "this is not a whole number; use 0 to"),
+        (vec!["sample", LAYERED, "--lat", "1e300", "--lon", "0"], "1e300 is out of range; use -90 to 90"),
         (vec!["bench", "--fast"], "unexpected argument"),
         (vec!["--nonsense"], "unexpected argument"),
     ] {
@@ -74,6 +75,50 @@ fn help_and_version_are_no_errors() {
     assert!(status == 0 && err.is_empty() && out.contains("render") && out.contains("bench"), "{out}{err}");
     let (status, out, _) = run(&["--version"]);
     assert_eq!((status, out.trim()), (0, concat!("tellus ", env!("CARGO_PKG_VERSION"))));
+}
+
+/// A negative number is the value of its option, which says its range.
+#[test]
+fn negative_values_hear_the_range_of_their_option() {
+    let mut asked = 0;
+    for command in
+        ["render", "film", "sample", "nearest", "bake", "mesh", "tiles", "rivers", "coasts", "sky", "system", "new"]
+    {
+        let (_, help, _) = run(&[command, "--help"]);
+        let names = help.lines().filter_map(|line| line.trim_start().strip_prefix("--"));
+        let names: Vec<&str> = names
+            .filter_map(|line| line.split_once(" <"))
+            .filter(|(_, rest)| {
+                ["DEG", "METRES", "KILOMETRES", "N", "PIXELS", "SECONDS", "SHARE", "FACTOR", "WxH", "MM"]
+                    .iter()
+                    .any(|value| rest.starts_with(&format!("{value}>")))
+            })
+            .map(|(name, _)| name)
+            .collect();
+        for name in names {
+            asked += 1;
+            let (status, _, err) = run(&[command, &format!("--{name}"), "-1e300"]);
+            let says = err.contains("use ") || err.contains("; write ");
+            assert!(status == 2 && says && !err.contains("unexpected argument"), "{command} --{name}: {err}");
+            assert!(err.len() < 400, "{command} --{name}: {err}");
+        }
+    }
+    assert!(asked > 40, "{asked}");
+}
+
+/// What cannot be printed is an error; a reader who has seen enough is none.
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_an_error() {
+    for args in [&["--help"][..], &["--version"], &["render", "--help"], &["check", AUREL]] {
+        let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin!("tellus"));
+        command.args(args).current_dir(env!("CARGO_MANIFEST_DIR")).stdout(full);
+        let output = command.output().unwrap();
+        let told = String::from_utf8(output.stderr).unwrap();
+        let is_said = told.starts_with("error: cannot write to standard output: No space left");
+        assert!(output.status.code() == Some(1) && is_said, "{args:?}: {:?} {told}", output.status);
+    }
 }
 
 /// The help states the opening view of the code.
@@ -120,7 +165,7 @@ fn a_wrong_preset_is_status_1_everywhere() {
         vec![file],
         vec!["render", file, "-o", output],
         vec!["sample", file, "--lat", "0", "--lon", "0"],
-        vec!["new", "-o", output, "--from", file],
+        vec!["new", "-o", &format!("{output}.ron"), "--from", file],
     ] {
         let (status, _, err) = run(&args);
         assert!(status == 1 && err.starts_with(&format!("error: {file}:3:13: radius_km: ")), "{args:?}: {err}");
@@ -200,7 +245,7 @@ fn new_writes_valid_planets_that_their_seed_repeats() {
     assert_eq!(read(a), read(b));
     assert_eq!(Planet::load(a).unwrap(), scout::random_planet(None, 7));
 
-    assert_eq!(run(&["new", "-o", b, "--seed", "7", "--from", LAYERED]).0, 0);
+    assert_eq!(run(&["new", "-o", b, "--seed", "7", "--from", LAYERED, "--force"]).0, 0);
     assert_ne!(read(a), read(b));
     assert_eq!(run(&["check", a, b]).0, 0);
 

@@ -18,7 +18,8 @@ const FULL: Broken =
     Broken { prepare: "mount -t tmpfs -o size=64k none \"$disk\"", says: "No space left on device", holds_files: true };
 const READ_ONLY: Broken =
     Broken { prepare: "mount -t tmpfs -o ro none \"$disk\"", says: "Read-only file system", holds_files: false };
-const SHORT: Broken = Broken { prepare: "trap '' XFSZ; ulimit -f 16", says: "File too large", holds_files: true };
+/// A limit of the user. The program itself must ignore the signal that comes with it.
+const SHORT: Broken = Broken { prepare: "ulimit -f 16", says: "File too large", holds_files: true };
 
 /// The commands; `$disk` is where they write.
 const COMMANDS: [&str; 9] = [
@@ -63,6 +64,8 @@ fn check(broken: &Broken, in_namespace: bool) {
             let is_whole = file.ends_with(".strip") || file.ends_with("tiles.key") || is_whole_tile(command, file);
             assert!(broken.holds_files && is_whole, "{command}: left behind: {file}");
         }
+        // Where nothing was before, no old file is spoken of.
+        assert!(!told.contains("the old file"), "{command}: {told}");
     }
 }
 
@@ -86,6 +89,21 @@ fn a_full_disk_is_said_and_leaves_nothing_half_written() {
         check(&FULL, true);
     }
     check(&SHORT, false);
+}
+
+/// A bake that cannot fit is refused with both numbers, before anything is made.
+#[test]
+fn a_disk_that_is_too_small_is_said_beforehand() {
+    if !has_namespaces() {
+        return;
+    }
+    for command in COMMANDS.into_iter().filter(|command| command.starts_with("bake ") || command.starts_with("tiles "))
+    {
+        let Output { stdout, stderr, .. } = run(&FULL, command, true);
+        let (told, left) = (String::from_utf8(stderr).unwrap(), String::from_utf8(stdout).unwrap());
+        let is_said = told.contains("it takes at least ") && told.contains("and 0.1 MiB are free");
+        assert!(is_said && left.is_empty(), "{command}: {told}{left}");
+    }
 }
 
 #[test]

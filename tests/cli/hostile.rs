@@ -200,6 +200,31 @@ fn pipes_and_devices_are_not_read() {
             );
         }
     }
+    // A system, points, the key and the tiles of a tileset, and the file of a preset's edits.
+    std::fs::write(path("e.ron"), format!("(version: {VERSION}, edits: \"edits.ron\")")).unwrap();
+    std::fs::write(path("small.ron"), format!("(version: {VERSION}, radius_km: 50.0)")).unwrap();
+    std::os::unix::fs::symlink("pipe", path("edits.ron")).unwrap();
+    std::fs::create_dir(path("tiles")).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", path("tiles/tiles.key")).unwrap();
+    for args in [
+        &["system", "pipe"][..],
+        &["system", "/dev/zero"],
+        &["check", "e.ron"],
+        &["sample", "small.ron", "--points", "pipe"],
+        &["sample", "small.ron", "--points", "/dev/zero"],
+        &["tiles", "small.ron", "-o", "tiles", "--levels", "0", "--cells", "4"],
+    ] {
+        let (status, out, err) = run(folder.path(), 4096, args);
+        assert!(status == 1 && out.is_empty() && err.contains("is a device or a pipe, not a file"), "{args:?}: {err}");
+    }
+    // Tiles that are none are made anew.
+    std::fs::remove_file(path("tiles/tiles.key")).unwrap();
+    std::fs::create_dir(path("tiles/0")).unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(path("tiles/0/pos_x_0_0.glb")).status().unwrap().success());
+    let (status, _, err) =
+        run(folder.path(), 4096, &["tiles", "small.ron", "-o", "tiles", "--levels", "0", "--cells", "4"]);
+    assert!(status == 1 && err.contains("pos_x_0_0.glb: is a device or a pipe"), "{err}");
+
     preset(folder.path(), &["pipe", "/dev/zero", "link.png"]);
     let said = refused(folder.path(), 1024);
     for (said, file) in said.iter().zip(["pipe", "/dev/zero", "link.png"]) {

@@ -78,6 +78,46 @@ fn files_are_short_and_comments_fit_the_window() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Files that others may have put there are opened in one place, which refuses pipes and devices. A file that opens
+/// others itself is listed with the reason.
+#[test]
+fn files_are_opened_for_reading_in_one_place() {
+    const OPENERS: [&str; 10] = [
+        "src/planet/open.rs",
+        // A folder, to sync it.
+        "src/planet/output.rs",
+        // Locks that this program makes.
+        "src/editor/files/claim.rs",
+        // Its own log and reports.
+        "src/cli/logging.rs",
+        "src/editor/files/crash.rs",
+        // The shaders of this repository, and figures of the kernel.
+        "src/render/shaders.rs",
+        "src/cli/bench/mod.rs",
+        "src/cli/bench/sculpt.rs",
+        // Strips.
+        "src/bake/strips.rs",
+        "src/bake/rows.rs",
+    ];
+    const CALLS: [&str; 4] = ["File::open(", "fs::read(", "read_to_string(", "image::open("];
+    let mut paths = Vec::new();
+    files(&Path::new(ROOT).join("src"), &mut paths);
+    let mut wrong = Vec::new();
+    for path in paths {
+        let name = path.strip_prefix(ROOT).unwrap().to_string_lossy().replace('\\', "/");
+        let text = fs::read_to_string(&path).unwrap_or_default();
+        // Tests read what they have written.
+        let code = text.split("\nmod tests {").next().unwrap_or_default();
+        if OPENERS.contains(&name.as_str()) || name.contains("tests") {
+            continue;
+        }
+        let lines = code.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//"));
+        let opens = lines.filter(|(_, line)| CALLS.iter().any(|call| line.contains(call)));
+        wrong.extend(opens.map(|(i, line)| format!("{name}:{}: {}", i + 1, line.trim())));
+    }
+    assert!(wrong.is_empty(), "use crate::planet::open:\n{}", wrong.join("\n"));
+}
+
 #[test]
 fn an_offence_is_named_with_its_line() {
     let long = format!("fn f() {{}}\n    // {}\n", "x".repeat(MOST_COLUMNS));

@@ -7,6 +7,7 @@
 //! - `sets`: sets of files: damaged, finished, incomplete; threads and progress
 //! - `readback`: every map, format and projection
 //! - `rivers`: rivers as GeoJSON, many points
+//! - `outputs`: outputs that are inputs, links, addresses; nothing is lost
 //! - `mesh`: meshes against `tellus sample`
 //! - `fuzz`: random command lines
 //! - `house`: the length of files and comments
@@ -29,6 +30,8 @@ mod hostile;
 mod house;
 mod interface;
 mod mesh;
+#[cfg(unix)]
+mod outputs;
 mod readback;
 mod readme;
 mod rivers;

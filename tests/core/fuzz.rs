@@ -90,7 +90,7 @@ editor: (bookmarks: [(name: \"Bay\", latitude_deg: 3, altitude_m: 500)]))"
 }
 
 /// A text without comments, as tokens.
-pub fn tokens(text: &str) -> Vec<String> {
+pub(crate) fn tokens(text: &str) -> Vec<String> {
     let mut tokens: Vec<String> = Vec::new();
     for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
         let mut rest = line.trim();
@@ -110,7 +110,7 @@ pub fn tokens(text: &str) -> Vec<String> {
 }
 
 /// A text with some tokens changed.
-pub fn changed(tokens: &[String], dice: &mut Dice) -> String {
+pub(crate) fn changed(tokens: &[String], dice: &mut Dice) -> String {
     let mut tokens = tokens.to_vec();
     for _ in 0..1 + pick(dice, 3) {
         let at = pick(dice, tokens.len());

@@ -2,6 +2,7 @@
 
 use super::app::{open_file, until};
 use super::*;
+use tellus::editor::command::{Action, BakeAction};
 use tellus::editor::files::dialogs::NoDialogs;
 use tellus::planet::{EditPoint, GroundEdit};
 
@@ -313,4 +314,45 @@ fn a_planet_of_many_strokes_is_saved_with_its_edits_beside_it() {
     let fewer = Planet { edits: (0..1400).map(stroke).collect(), ..planet(&harness) };
     fewer.save(&path).unwrap();
     until(&mut harness, "the edits are read again", |harness| harness.state().document().planet().edits.len() == 1400);
+}
+
+/// Neither a save nor an export replaces a file that the planet is read from, also after a question.
+#[test]
+fn nothing_that_is_written_replaces_what_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    image::GrayImage::new(16, 8).save(at("height.png")).unwrap();
+    let list = "(version: 3, edits: [(tool: Volcano(), points: [(1, 2)])])";
+    std::fs::write(at("mine.edits-0123456789abcdef.ron"), list).unwrap();
+    let layer = "(name: \"Map\", shape: HeightMap(file: \"height.png\"))";
+    let edits = "edits: \"mine.edits-0123456789abcdef.ron\"";
+    std::fs::write(at("mine.ron"), format!("(version: 3, radius_km: 100.0, layers: [{layer}], {edits})")).unwrap();
+    let read =
+        || ["height.png", "mine.edits-0123456789abcdef.ron", "mine.ron"].map(|name| std::fs::read(at(name)).unwrap());
+    let before = read();
+    let picture = at("height.png");
+    let mut harness = editor(vec![
+        Some(at("mine.ron")),
+        Some(at("mine.edits-0123456789abcdef.ron")),
+        Some(picture.clone()),
+        Some(folder.path().to_owned()),
+    ]);
+    send(&mut harness, Command::Open);
+    assert_eq!(harness.state().document().path(), Some(at("mine.ron").as_path()));
+    let refused = |harness: &mut Editor, command: Command, title: &str| {
+        send(harness, command);
+        harness.run_steps(3);
+        assert!(harness.query_by_label_contains(title).is_some(), "{title}");
+        assert!(harness.query_by_label_contains("which would be lost; write to another file").is_some(), "{title}");
+        click(harness, "Dismiss");
+        assert!(read() == before, "{title}: something has changed");
+    };
+    refused(&mut harness, Command::SaveAs, "The planet could not be saved");
+    refused(&mut harness, Command::ExportTable, "The biome table could not be exported");
+    // Its maps would be called as the picture is.
+    send(&mut harness, Command::Bake);
+    harness.state_mut().push(Action::Bake(BakeAction::Ask));
+    harness.run_steps(4);
+    assert!(harness.query_by_label_contains("The maps could not be baked").is_some());
+    assert!(read() == before && std::fs::read_dir(folder.path()).unwrap().count() == 3);
 }

@@ -1,11 +1,14 @@
 //! What a tile of a tileset tells of itself, in its file: a bake that goes on needs it of tiles that are there.
 
 use super::patch::Patch;
-use crate::planet::file::open_file;
+use crate::planet::open::open_file;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::io::Read as _;
 use std::path::Path;
+
+/// Longest description of a tile: that of one has a few thousand bytes.
+const MOST_JSON_BYTES: u64 = 1 << 20;
 
 /// What a tile tells of itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -46,7 +49,7 @@ impl Measures {
         file.read_exact(&mut head).ok()?;
         let length = head.starts_with(b"glTF").then(|| u32::from_le_bytes([head[12], head[13], head[14], head[15]]))?;
         let mut json = Vec::new();
-        file.take(length.into()).read_to_end(&mut json).ok()?;
+        file.take(u64::from(length).min(MOST_JSON_BYTES)).read_to_end(&mut json).ok()?;
         let document: Value = serde_json::from_slice(&json).ok()?;
         serde_json::from_value(document.get("nodes")?.get(0)?.get("extras")?.get("measures")?.clone()).ok()
     }

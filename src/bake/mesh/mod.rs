@@ -181,6 +181,8 @@ fn level_name(name: &str, level: usize, levels: usize) -> String {
 }
 
 impl MeshBake {
+    /// Most levels of detail.
+    pub const MOST_LEVELS: u32 = MAX_LEVELS;
     /// Cells along each side of a square, unless a spacing is wanted.
     pub const CELLS: u32 = 256;
 
@@ -220,7 +222,7 @@ impl MeshBake {
         self.squares() * (u64::from(self.cells) + 1).pow(2)
     }
 
-    fn squares(&self) -> u64 {
+    pub(super) fn squares(&self) -> u64 {
         if self.area == Area::Globe { 6 } else { 1 }
     }
 
@@ -246,7 +248,7 @@ impl MeshBake {
         profiling::scope!("bake a mesh");
         let planet = terrain.planet();
         has_final_maps(terrain).and_then(|()| self.check(planet)).map_err(BakeError::Asked)?;
-        for path in self.files(path) {
+        for path in self.files(planet.radius_m(), path) {
             Target::checked(&path).map_err(|error| BakeError::file(&path, error))?;
         }
         let squares = Square::all(&self.area, planet.radius_m());
@@ -292,15 +294,16 @@ impl MeshBake {
         }
     }
 
-    /// The file, and those that an OBJ has beside it.
-    pub fn files(&self, path: &Path) -> Vec<PathBuf> {
+    /// The file that is named, and all that are written beside it.
+    pub fn files(&self, radius_m: f64, path: &Path) -> Vec<PathBuf> {
         let mut files = vec![path.to_owned()];
         if self.format == MeshFormat::Obj {
             files.push(beside(path, ".mtl"));
-            let squares = Square::all(&self.area, 1.0).into_iter().filter(|_| self.texture_px.is_some());
-            let kinds = ["albedo", "normal", "roughness"];
-            let texture = |square: Square| kinds.map(|kind| beside(path, &format!("_{}_{kind}.png", square.name())));
-            files.extend(squares.flat_map(texture));
+            let squares = Square::all(&self.area, radius_m);
+            let named = squares.iter().filter(|_| self.texture_px.is_some());
+            files.extend(
+                named.flat_map(|square| obj::TEXTURES.map(|kind| obj::texture_path(path, square.name(), kind))),
+            );
         }
         files
     }

@@ -18,6 +18,14 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+/// The kinds of texture of a piece.
+pub(super) const TEXTURES: [&str; 3] = ["albedo", "normal", "roughness"];
+
+/// The file of a texture.
+pub(super) fn texture_path(path: &Path, piece: &str, kind: &str) -> PathBuf {
+    beside(path, &format!("_{piece}_{kind}.png"))
+}
+
 /// Writes the file and those beside it, all of them or none.
 pub(super) fn write(
     mesh: &MeshBake,
@@ -38,11 +46,10 @@ pub(super) fn write(
     for piece in pieces {
         materials.push_str(&format!("\nnewmtl {}\nKs 0 0 0\nPr 0.9\n", piece.name));
         if let Some(textures) = &piece.textures {
-            let mut texture =
-                |kind: &str, bytes: &[u8]| write(beside(path, &format!("_{}_{kind}.png", piece.name)), bytes);
-            let albedo = texture("albedo", &textures.albedo)?;
-            let normal = texture("normal", &textures.normal)?;
-            let roughness = texture("roughness", &textures.roughness)?;
+            let [albedo, normal, roughness] = TEXTURES.map(|kind| texture_path(path, piece.name, kind));
+            let albedo = write(albedo, &textures.albedo)?;
+            let normal = write(normal, &textures.normal)?;
+            let roughness = write(roughness, &textures.roughness)?;
             materials.push_str(&format!("Kd 1 1 1\nmap_Kd {albedo}\nnorm {normal}\nmap_Pr {roughness}\n"));
         }
     }

@@ -29,6 +29,8 @@ use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+/// The file that says which bake a folder belongs to: 32 digits.
+const KEY_FILE: &str = "tiles.key";
 /// Finest level.
 const MAX_LEVEL: u8 = 16;
 /// Most tiles.
@@ -192,6 +194,20 @@ impl Tileset {
             Some(_) => self.nodes(planet).len(),
         };
         Some(count).filter(|count| *count <= MAX_TILES)
+    }
+
+    /// The finest level that there can be, where the number of tiles allows it.
+    pub const MOST_LEVELS: u8 = MAX_LEVEL;
+    /// Most cells along a side of a tile.
+    pub const MOST_CELLS: u32 = MAX_CELLS;
+    /// Most texels along a side of a tile.
+    pub const MOST_TEXTURE: u32 = MAX_TEXTURE;
+
+    /// Names of all files in the folder.
+    pub(in crate::bake) fn names(&self, planet: &Planet) -> Vec<String> {
+        let faces = Face::ALL.into_iter().filter(|_| self.is_implicit).map(implicit::uri);
+        let own = ["tileset.json", KEY_FILE].map(str::to_owned).into_iter();
+        own.chain(faces).chain(self.nodes(planet).into_iter().map(uri)).collect()
     }
 
     /// Mean distance between neighbouring vertices of the finest level, on the reference sphere.

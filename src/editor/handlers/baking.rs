@@ -95,9 +95,27 @@ pub fn start(state: &mut State, ctx: &egui::Context, product: Product, to: &Path
     let mut settings = state.bake.clone();
     settings.product = product;
     settings.mesh.format = MeshFormat::of(to).unwrap_or(settings.mesh.format);
+    let title = failed(product);
+    match settings.outputs(&planet, to) {
+        Err(why) => return state.report(title, vec![why]),
+        Ok(outputs) if state.would_lose(title, &outputs) => return,
+        Ok(_) => {}
+    }
+    if let Err(why) = settings.check_room(&planet, to) {
+        return state.report(title, vec![format!("{}: {why}", to.display())]);
+    }
     let to = (to, state.viewport.settings.time_secs);
     let store = state.viewport.map_store();
     state.baking = Some(Baking::start(settings, planet, store, to, move || ctx.request_repaint()));
+}
+
+/// What the title of a message says.
+fn failed(product: Product) -> &'static str {
+    match product {
+        Product::Maps => "The maps could not be baked",
+        Product::Mesh => "The mesh could not be baked",
+        Product::Tiles => "The tiles could not be baked",
+    }
 }
 
 /// Asks for the small picture while its window is open, and says what has become of a bake once it has ended.
@@ -132,14 +150,7 @@ pub fn poll(state: &mut State, ctx: &egui::Context) {
         (Ok(Outcome::Stopped | Outcome::Shard { .. }), _) => {
             state.notices.say(format!("Stopped; the same bake into {to} goes on from there"));
         }
-        (Err(why), product) => {
-            let title = match product {
-                Product::Maps => "The maps could not be baked",
-                Product::Mesh => "The mesh could not be baked",
-                Product::Tiles => "The tiles could not be baked",
-            };
-            state.report(title, vec![why]);
-        }
+        (Err(why), product) => state.report(failed(product), vec![why]),
     }
 }
 

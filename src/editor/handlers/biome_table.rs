@@ -53,6 +53,9 @@ pub fn import(state: &mut State, file: &Path) {
 /// Writes the table to a file that was chosen. `agreed` is the file that the user has agreed to replace, if it exists.
 pub fn export_chosen(state: &mut State, file: &Path, agreed: Option<&Path>) {
     let path = with_extension(file, "png");
+    if state.would_lose("The biome table could not be exported", &[&path]) {
+        return;
+    }
     if path.exists() && agreed != Some(&path) {
         state.questions.replace = Some(Replace::Table(path));
     } else {
@@ -61,19 +64,18 @@ pub fn export_chosen(state: &mut State, file: &Path, agreed: Option<&Path>) {
 }
 
 /// Writes the table as a picture. A message says if biomes have the same colour.
-pub fn export(state: &mut State, file: &Path) {
+pub fn export(state: &mut State, path: &Path) {
     let biomes = &state.document.planet().biomes;
-    let written =
-        table_png::encode(biomes).and_then(|bytes| std::fs::write(file, bytes).map_err(|error| error.to_string()));
+    let written = table_png::encode(biomes).and_then(|bytes| file::write_atomically(path, &bytes));
     if let Err(why) = written {
-        state.report("The biome table could not be exported", vec![format!("{}: {why}", file.display())]);
+        state.report("The biome table could not be exported", vec![format!("{}: {why}", path.display())]);
         return;
     }
     let lines: Vec<String> = table_png::look_alikes(biomes)
         .into_iter()
         .map(|(first, other)| format!("{other} has the colour of {first}: an import makes both {first}."))
         .collect();
-    state.notices.say(format!("Exported to {}", file.display()));
+    state.notices.say(format!("Exported to {}", path.display()));
     if !lines.is_empty() {
         state.report("Exported, but some biomes look alike", lines);
     }

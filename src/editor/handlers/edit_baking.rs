@@ -30,12 +30,13 @@ pub fn ask(state: &mut State, ctx: &egui::Context, edits: Vec<usize>) {
 /// Goes on with a file that was chosen. `agreed` is the file that the user has agreed to replace.
 pub fn chosen(state: &mut State, ctx: &egui::Context, edits: Vec<usize>, file: &Path, agreed: Option<&Path>) {
     let path = with_extension(file, "exr");
-    let is_it = |location: std::path::PathBuf| {
-        location == path || path.canonicalize().is_ok_and(|path| location.canonicalize().is_ok_and(|at| at == path))
-    };
-    if state.document.planet().pictures().filter_map(|(_, file, _)| file.location()).any(is_it) {
-        let why = format!("The planet reads {} already. Choose another name.", path.display());
-        state.report(FAILED, vec![why]);
+    // One that the planet names, but which is not there yet, would be read from then on.
+    let is_named = state.document.planet().pictures().any(|(_, file, _)| file.location().as_ref() == Some(&path));
+    if is_named && !path.exists() {
+        state.report(FAILED, vec![format!("The planet names {} already. Choose another name.", path.display())]);
+        return;
+    }
+    if state.would_lose(FAILED, &[&path]) {
         return;
     }
     if path.exists() && agreed != Some(&path) {

@@ -45,6 +45,7 @@ pub fn save_chosen(state: &mut State, ctx: &egui::Context, file: &Path, agreed: 
     let path = with_extension(file, PRESET_EXTENSION);
     match state.document.path().filter(|own| is_same_file(own, &path)).map(Path::to_owned) {
         Some(own) => save_own(state, ctx, own),
+        None if state.would_lose("The planet could not be saved", &[&path]) => state.questions.after_save = None,
         None if path.exists() && agreed != Some(&path) => state.questions.replace = Some(Replace::Planet(path)),
         None => write(state, ctx, path),
     }

@@ -3,7 +3,7 @@
 use crate::editor::files::dialogs::DialogRequest;
 use crate::editor::state::State;
 use crate::editor::state::questions::{Asking, Replace};
-use crate::editor::state::shooting::{Shooting, Subject};
+use crate::editor::state::shooting::{PhotoSettings, Shooting, Subject};
 use crate::film::{CameraPath, FileKind, Film, Sequence, Shot, frame_path};
 use crate::lod::{Camera, View};
 use crate::render::{Lens, Metering, Photo, Post};
@@ -23,6 +23,13 @@ pub fn ask(state: &mut State, ctx: &egui::Context, subject: Subject) {
 pub fn chosen(state: &mut State, ctx: &egui::Context, subject: Subject, file: &Path, agreed: Option<&Path>) {
     let path = if file.extension().is_some() { file.to_owned() } else { file.with_extension("png") };
     let first = if subject == Subject::Film { frame_path(&path, 1) } else { path.clone() };
+    let files = match subject {
+        Subject::Film => film(&state.photo, 1.0).files(&path),
+        Subject::Picture => vec![path.clone()],
+    };
+    if state.would_lose("The picture could not be saved", &files) {
+        return;
+    }
     if first.exists() && agreed != Some(&first) {
         state.questions.replace = Some(Replace::Photograph { subject, path, first });
     } else {
@@ -42,6 +49,11 @@ pub fn start(state: &mut State, ctx: &egui::Context, subject: Subject, path: &Pa
         },
         Err(why) => state.report("No picture", vec![why]),
     }
+}
+
+/// How the film runs. `speed`: seconds of the planet in each second.
+fn film(photo: &PhotoSettings, speed: f64) -> Film {
+    Film { secs: photo.film_secs, fps: photo.fps, speed }
 }
 
 fn sequence(state: &State, subject: Subject, path: &Path) -> Result<Sequence, String> {
@@ -74,8 +86,7 @@ fn sequence(state: &State, subject: Subject, path: &Path) -> Result<Sequence, St
             let way = CameraPath::over(&shot.terrain, state.document.bookmarks(), camera.fov_y_rad)
                 .ok_or("There is no bookmark to fly over: add some with Ctrl+B.")?;
             let speed = if settings.playing { settings.time_speed } else { 1.0 };
-            let film = Film { secs: photo.film_secs, fps: photo.fps, speed };
-            Ok(Sequence::film(shot, way, film, path, kind))
+            Ok(Sequence::film(shot, way, film(photo, speed), path, kind))
         }
     }
 }

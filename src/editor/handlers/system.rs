@@ -2,7 +2,7 @@
 
 use crate::editor::command::{NewBody, SystemAction};
 use crate::editor::files::dialogs::DialogRequest;
-use crate::editor::files::file_names::{PRESET_EXTENSION, file_name_of, with_extension};
+use crate::editor::files::file_names::{PRESET_EXTENSION, file_name_of, is_same_file, with_extension};
 use crate::editor::handlers::opening;
 use crate::editor::state::State;
 use crate::editor::state::questions::{Asking, Goal, Replace};
@@ -213,6 +213,11 @@ pub fn save_as(state: &mut State, ctx: &egui::Context) {
 pub fn save_chosen(state: &mut State, ctx: &egui::Context, file: &Path, agreed: Option<&Path>) {
     let path = with_extension(file, PRESET_EXTENSION);
     let path = std::path::absolute(&path).unwrap_or(path);
+    let is_own = state.system.as_ref().and_then(|system| system.path()).is_some_and(|own| is_same_file(own, &path));
+    if !is_own && state.would_lose("The system could not be saved", &[&path]) {
+        state.questions.after_save = None;
+        return;
+    }
     write_unless_theirs(state, ctx, path, agreed);
 }
 

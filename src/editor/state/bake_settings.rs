@@ -1,9 +1,11 @@
 //! What the user wants to bake: maps, a mesh or 3D tiles.
 
 use crate::bake::mesh::{Area, MeshBake, MeshFormat, MeshWater, Tileset};
-use crate::bake::{Bake, Detail, Format, Landscape, Map, Projection, Quadtree, Region};
+use crate::bake::room::{bytes_in, check_room};
+use crate::bake::{Bake, Detail, Format, Landscape, Map, MapPlan, Projection, Quadtree, Region};
 use crate::planet::Planet;
 use crate::terrain::Terrain;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What is written.
@@ -232,6 +234,36 @@ impl BakeSettings {
         let region = in_region.then_some(self.region);
         let detail = self.detail;
         Tileset { region, cells, texture_px, water, detail, is_quantized, is_implicit, ..Tileset::new(levels) }
+    }
+
+    fn plan<'a>(&self, maps: &'a [Map]) -> MapPlan<'a> {
+        MapPlan { maps, projection: self.projection(), size: self.size, format: self.format }
+    }
+
+    /// The files to write: in a folder, or a mesh and what is beside it.
+    ///
+    /// # Errors
+    /// What is wrong with the settings.
+    pub fn outputs(&self, planet: &Planet, to: &Path) -> Result<Vec<PathBuf>, String> {
+        match self.product {
+            Product::Maps => self.plan(&self.maps_of(planet)).files(planet, to),
+            Product::Mesh => Ok(self.mesh(planet).files(planet.radius_m(), to)),
+            Product::Tiles => Ok(self.tileset().files(planet, to)),
+        }
+    }
+
+    /// Checks that the disk has room for them.
+    ///
+    /// # Errors
+    /// How much is missing.
+    pub fn check_room(&self, planet: &Planet, to: &Path) -> Result<(), String> {
+        let (least_bytes, parts) = match self.product {
+            Product::Maps => (self.plan(&self.maps_of(planet)).least_bytes(planet)?, "strip"),
+            Product::Mesh => (self.mesh(planet).least_bytes(), ""),
+            Product::Tiles => (self.tileset().least_bytes(planet), "glb"),
+        };
+        let is_part = |path: &Path| path.extension().is_some_and(|ending| ending == parts);
+        check_room(to, least_bytes, bytes_in(to, &is_part, 1))
     }
 
     /// Whether the region matters.

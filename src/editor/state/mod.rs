@@ -48,6 +48,7 @@ use super::files::recent::Recent;
 use super::viewport::Viewport;
 use super::viewport::camera::{Cameras, Ground};
 use crate::planet::Planet;
+use crate::planet::sources::Sources;
 use crate::render::Worlds;
 use bake_settings::BakeSettings;
 use baking::{BakePreview, Baking};
@@ -63,7 +64,7 @@ use recovery::{Orphan, Recovery};
 use sheet::Sheet;
 use shelf::Shelf;
 use shooting::{PhotoSettings, Shooting};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 use system::{OpenSystem, follow};
@@ -397,6 +398,33 @@ impl State {
     /// Shows a message.
     pub fn report(&mut self, title: &str, lines: Vec<String>) {
         self.messages.push(Message::new(title, lines));
+    }
+
+    /// The files that the planet and the system were read from, their pictures and edits.
+    pub fn sources(&self) -> Sources {
+        let planet = self.document.planet();
+        let mut sources = match self.document.path() {
+            Some(path) => Sources::of_preset(path, planet),
+            None => Sources::of_planet(planet),
+        };
+        if let Some(system) = &self.system {
+            sources.extend(system.sources());
+        }
+        sources
+    }
+
+    /// Whether one of the files to be written is one that is read, which would be lost. Then it is said.
+    pub fn would_lose(&mut self, title: &str, outputs: &[impl AsRef<Path>]) -> bool {
+        let sources = self.sources();
+        let lost = outputs.iter().find_map(|output| {
+            let output = output.as_ref();
+            sources.check(output).err().map(|why| format!("{}: {why}", output.display()))
+        });
+        let is_lost = lost.is_some();
+        if let Some(why) = lost {
+            self.report(title, vec![why]);
+        }
+        is_lost
     }
 
     /// Undo takes steps of the planet from now on, not of the system.

@@ -3,8 +3,9 @@
 use super::OpenSystem;
 use crate::editor::files::file_names::readable_stem;
 use crate::editor::state::document::Document;
-use crate::planet::file::write_atomically;
+use crate::planet::file::{read, write_atomically};
 use crate::planet::picture::folder_of;
+use crate::planet::sources::Sources;
 use crate::planet::{Planet, shipped};
 use crate::system::System;
 use std::collections::HashMap;
@@ -57,6 +58,20 @@ impl OpenSystem {
 
 /// The system's file, and the system for a working copy.
 impl OpenSystem {
+    /// The files of the system and of its presets.
+    pub fn sources(&self) -> Sources {
+        let mut sources = Sources::default();
+        if let Some(path) = self.path() {
+            sources.add(path, "the system file");
+        }
+        for number in 0..self.system().bodies.len() {
+            if let Some(Preset::File(path)) = self.preset(number) {
+                sources.add(&path, "a preset of the system");
+            }
+        }
+        sources
+    }
+
     /// The file of the system; None for one that no file holds.
     pub fn path(&self) -> Option<&Path> {
         match &self.origin {
@@ -119,7 +134,7 @@ fn write_beside(folder: &Path, index: usize) -> Result<String, String> {
     let names = std::iter::once(preset.file.to_owned()).chain((2..).map(|number| format!("{stem}-{number}.ron")));
     for name in names {
         let path = folder.join(&name);
-        match std::fs::read(&path) {
+        match read(&path, preset.text.len() as u64) {
             Ok(bytes) if bytes == preset.text.as_bytes() => return Ok(name),
             Ok(_) => {}
             Err(_) if path.exists() => {}
