@@ -63,7 +63,8 @@ fn snapshot(folder: &Path) -> BTreeMap<String, (Vec<u8>, bool)> {
         let name = entry.file_name().to_string_lossy().into_owned();
         match entry.path().is_dir() {
             true => {
-                found.extend(snapshot(&entry.path()).into_iter().map(|(below, what)| (format!("{name}/{below}"), what)))
+                found
+                    .extend(snapshot(&entry.path()).into_iter().map(|(below, what)| (format!("{name}/{below}"), what)));
             }
             false => drop(found.insert(name, (fs::read(entry.path()).unwrap(), entry.path().is_symlink()))),
         }
