@@ -324,7 +324,7 @@ fn trials_are_judged_by_rebound() {
         let off_m = off_m.fold(0.0, f64::max);
         println!("counted: {name}: {ending} after {:.6} years, off by {off_m:.1e} m", secs / YEAR_SECS);
         if name == "hearth" {
-            println!("{:?}", places_m.iter().map(|place_m| place_m.to_array()).collect::<Vec<_>>());
+            println!("{:?}", places_m.iter().map(DVec3::to_array).collect::<Vec<_>>());
         }
         match trial.ending {
             Ending::Collision => {
