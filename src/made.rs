@@ -5,8 +5,7 @@
 //! those that were written. A set whose parts have no room for that has a [`Ledger`] beside them.
 
 use crate::planet::file::{open_file, read};
-use crate::planet::{Key, VERSION};
-use crate::world::SOLVERS_VERSION;
+use crate::planet::{GROUND_VERSION, Key};
 use crc32fast::Hasher;
 use std::collections::BTreeMap;
 use std::fmt::Debug;
@@ -24,15 +23,12 @@ const MOST_BYTES: u64 = 1 << 26;
 pub(crate) struct Versions {
     /// The program.
     pub(crate) program: &'static str,
-    /// The algorithm of the terrain, which the version of presets pins.
-    pub(crate) algorithm: u32,
-    /// The solvers of world maps.
-    pub(crate) solvers: u32,
+    /// All that shapes the ground.
+    pub(crate) ground: u32,
 }
 
 /// The versions of this program.
-pub(crate) const VERSIONS: Versions =
-    Versions { program: env!("CARGO_PKG_VERSION"), algorithm: VERSION, solvers: SOLVERS_VERSION };
+pub(crate) const VERSIONS: Versions = Versions { program: env!("CARGO_PKG_VERSION"), ground: GROUND_VERSION };
 
 /// Identity of what makes a file: a planet, given by its key, what is asked for, and all versions.
 pub(crate) fn identity(planet: Key, asked: &impl Debug) -> Key {
@@ -162,8 +158,8 @@ mod tests {
         assert_eq!(identity(planet, &1), identity(planet, &1));
         assert_ne!(identity(planet, &1), identity(planet, &2));
         assert_ne!(identity(planet, &1), identity(Key::of(&"other"), &1));
-        let others = [Versions { program: "0", ..VERSIONS }, Versions { algorithm: 0, ..VERSIONS }];
-        for versions in others.into_iter().chain([Versions { solvers: 0, ..VERSIONS }]) {
+        let others = [Versions { program: "0", ..VERSIONS }, Versions { ground: 0, ..VERSIONS }];
+        for versions in others {
             assert_ne!(Key::of(&(versions, planet, &1)), identity(planet, &1));
         }
     }

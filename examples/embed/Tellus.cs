@@ -108,11 +108,12 @@ namespace Tellus
             return direction;
         }
 
-        /// Heights of the ground under directions of three numbers each.
-        public double[] Heights(double[] directions)
+        /// Heights of the ground under directions of three numbers each. Rivers and valleys that points spacingM metres
+        /// apart would not show are left out: far cheaper where points are spread over the planet.
+        public double[] Heights(double[] directions, double spacingM = 0)
         {
             var heightsM = new double[Count(directions)];
-            Check(Native.tellus_heights(this, directions, (UIntPtr)heightsM.Length, heightsM));
+            Check(Native.tellus_heights_spaced(this, directions, (UIntPtr)heightsM.Length, spacingM, heightsM));
             return heightsM;
         }
 
@@ -254,8 +255,8 @@ namespace Tellus
 
         [DllImport(Library)]
         [return: MarshalAs(UnmanagedType.I1)]
-        internal static extern bool tellus_heights(
-            Planet planet, double[] directions, UIntPtr count, [Out] double[] heightsM);
+        internal static extern bool tellus_heights_spaced(
+            Planet planet, double[] directions, UIntPtr count, double spacingM, [Out] double[] heightsM);
 
         [DllImport(Library)]
         [return: MarshalAs(UnmanagedType.I1)]

@@ -18,8 +18,7 @@ pub(super) fn of_planet(planet: &Planet) -> Value {
         "radius_m": planet.radius_m(),
         "sea_level_m": planet.sea_level_m(),
         "preset_hash": format!("{:032x}", Key::of_planet(planet).bits()),
-        "algorithm_version": VERSIONS.algorithm,
-        "solver_version": VERSIONS.solvers,
+        "algorithm_version": VERSIONS.ground,
         "made_by": MADE_BY,
     })
 }

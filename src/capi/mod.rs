@@ -14,7 +14,7 @@ mod tests;
 use crate::clouds::CloudField;
 use crate::planet::{Key, Planet};
 use crate::sphere::{Face, LatLon, NodeId};
-use crate::terrain::{MapStore, Scratch, Terrain, Wanted};
+use crate::terrain::{Detail, MapStore, Scratch, Terrain, Wanted};
 use answers::{answer, input, last_error, optional_text, output, text};
 use glam::DVec3;
 use std::cell::RefCell;
@@ -220,15 +220,41 @@ pub unsafe extern "C" fn tellus_heights(
     count: usize,
     heights_m: *mut f64,
 ) -> bool {
+    // SAFETY: the caller's promise.
+    unsafe { tellus_heights_spaced(planet, directions, count, 0.0, heights_m) }
+}
+
+/// As `tellus_heights`, without rivers and valleys of a structure that points `spacing_m` metres apart would not show:
+/// far cheaper where points are spread over the planet. 0 is all of them.
+///
+/// # Safety
+/// As for `tellus_heights`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tellus_heights_spaced(
+    planet: *const TellusPlanet,
+    directions: *const f64,
+    count: usize,
+    spacing_m: f64,
+    heights_m: *mut f64,
+) -> bool {
     answer(false, || {
         // SAFETY: the caller's promise.
         let terrain = &unsafe { valid(planet) }?.terrain;
         // SAFETY: the caller's promise.
         let (dirs, heights_m) =
             unsafe { (directions_of(directions, count, "directions")?, output(heights_m, count, "heights_m")?) };
-        SCRATCH.with_borrow_mut(|scratch| terrain.heights_spaced_into(dirs, 0.0, heights_m, scratch));
+        let spacing_rad = spacing_rad(terrain, spacing_m)?;
+        SCRATCH.with_borrow_mut(|scratch| terrain.heights_spaced_into(dirs, spacing_rad, heights_m, scratch));
         Ok(true)
     })
+}
+
+/// A distance between points as an angle.
+fn spacing_rad(terrain: &Terrain, spacing_m: f64) -> Result<f64, String> {
+    if !(spacing_m >= 0.0) {
+        return Err(format!("spacing_m is {spacing_m}; use a distance in metres, or 0 for all detail"));
+    }
+    Ok(Detail::SpacingM(spacing_m).spacing_rad(terrain.planet().radius_m()))
 }
 
 /// The surface under `count` directions of 3 numbers each, on the calling thread. False, and nothing written, if that
@@ -244,17 +270,35 @@ pub unsafe extern "C" fn tellus_samples(
     count: usize,
     samples: *mut TellusSample,
 ) -> bool {
+    // SAFETY: the caller's promise.
+    unsafe { tellus_samples_spaced(planet, directions, count, 0.0, samples) }
+}
+
+/// As `tellus_samples`, without rivers and valleys of a structure that points `spacing_m` metres apart would not show. 0
+/// is all of them.
+///
+/// # Safety
+/// As for `tellus_samples`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tellus_samples_spaced(
+    planet: *const TellusPlanet,
+    directions: *const f64,
+    count: usize,
+    spacing_m: f64,
+    samples: *mut TellusSample,
+) -> bool {
     answer(false, || {
         // SAFETY: the caller's promise.
         let terrain = &unsafe { valid(planet) }?.terrain;
         // SAFETY: the caller's promise.
         let (dirs, samples) =
             unsafe { (directions_of(directions, count, "directions")?, output(samples, count, "samples")?) };
+        let spacing_rad = spacing_rad(terrain, spacing_m)?;
         SCRATCH.with_borrow_mut(|scratch| {
             const BATCH: usize = 256;
             let mut found = [crate::terrain::Sample::default(); BATCH];
             for (dirs, samples) in dirs.chunks(BATCH).zip(samples.chunks_mut(BATCH)) {
-                terrain.samples_spaced_into(dirs, 0.0, Wanted::ALL, &mut found, scratch);
+                terrain.samples_spaced_into(dirs, spacing_rad, Wanted::ALL, &mut found, scratch);
                 for (sample, found) in samples.iter_mut().zip(&found) {
                     *sample = TellusSample::of(found);
                 }

@@ -122,7 +122,8 @@ pub enum Detail {
 }
 
 impl Detail {
-    fn spacing_rad(self, radius_m: f64) -> f64 {
+    /// The distance between points as an angle; 0 for all detail.
+    pub(crate) fn spacing_rad(self, radius_m: f64) -> f64 {
         match self {
             Detail::SpacingM(spacing_m) if spacing_m > 0.0 => spacing_m.min(radius_m) / radius_m,
             _ => 0.0,

@@ -52,8 +52,6 @@ pub use slot::{MapLevel, MapWork};
 use std::fmt;
 use std::sync::Arc;
 pub use store::MapStore;
-#[cfg(any(feature = "bake", feature = "render"))]
-pub(crate) use store::VERSION as SOLVERS_VERSION;
 use weather::Weather;
 
 /// The Earth's radius in km. Widths and speeds of the structure are those of a planet of this size.

@@ -4,10 +4,11 @@
 //! that it was solved from, so a file is never out of date, only unused. A file that is damaged, or of another
 //! version, counts as missing. Files of other programs that happen to be in the folder stay as they are.
 //!
-//! Format, little-endian: `MAGIC`, [`VERSION`], the key (16 bytes), a checksum (8 bytes), the content.
+//! Format, little-endian: `MAGIC`, [`GROUND_VERSION`], the key (16 bytes), a checksum (8 bytes), the content.
 
 use super::bytes::{Reader, Writer};
 use super::map::{Inputs, WorldMap};
+use crate::planet::GROUND_VERSION;
 use crate::planet::Key;
 use crate::planet::open::{open_file, read_whole};
 use crate::planet::output::{check_address, write_over_links};
@@ -16,10 +17,6 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::SystemTime;
-
-/// Version of the solvers and of the format. Increase it with every change after which a solver answers differently;
-/// a test of the solvers' answers says when.
-pub(crate) const VERSION: u32 = 3;
 
 const MAGIC: [u8; 8] = *b"TELLUSWM";
 const HEADER: usize = MAGIC.len() + 4 + 16 + 8;
@@ -150,7 +147,8 @@ fn has_own_head(path: &Path) -> bool {
 /// Fills in the header before the content.
 fn with_header(mut bytes: Vec<u8>, key: Key) -> Vec<u8> {
     let (head, content) = bytes.split_at_mut(HEADER);
-    let fields = [&MAGIC[..], &VERSION.to_le_bytes(), &key.bits().to_le_bytes(), &checksum(content).to_le_bytes()];
+    let fields =
+        [&MAGIC[..], &GROUND_VERSION.to_le_bytes(), &key.bits().to_le_bytes(), &checksum(content).to_le_bytes()];
     head.copy_from_slice(&fields.concat());
     bytes
 }
@@ -158,7 +156,8 @@ fn with_header(mut bytes: Vec<u8>, key: Key) -> Vec<u8> {
 /// The content of a file of a key, if it is whole.
 fn content(bytes: &[u8], key: Key) -> Option<&[u8]> {
     let (head, content) = bytes.split_at_checked(HEADER)?;
-    let fields = [&MAGIC[..], &VERSION.to_le_bytes(), &key.bits().to_le_bytes(), &checksum(content).to_le_bytes()];
+    let fields =
+        [&MAGIC[..], &GROUND_VERSION.to_le_bytes(), &key.bits().to_le_bytes(), &checksum(content).to_le_bytes()];
     (head == fields.concat()).then_some(content)
 }
 

@@ -66,7 +66,7 @@ fn a_finished_bake_does_nothing_and_says_so_and_a_late_shard_neither() {
     assert_eq!(about["detail"], "pixel");
     let sum = crc32(&whole[&folder.join("height.png")]);
     assert_eq!(about["crc32"], format!("{sum:08x}"));
-    assert!(about["solver_version"].is_number() && about["identity"].as_str().map(str::len) == Some(32));
+    assert!(about["algorithm_version"].is_number() && about["identity"].as_str().map(str::len) == Some(32));
     let modified = || fs::metadata(folder.join("height.png")).unwrap().modified().unwrap();
     let before = modified();
     assert_eq!(bake(&[]), (0, NOTHING.to_owned()));

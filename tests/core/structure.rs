@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
 use tellus::lod::{Camera, Quality, Vertex, View};
 use tellus::planet::param::{Stage, Stages};
-use tellus::planet::{Dunes, Fbm, Layer, Planet, Ridged, Shape, Structure, Water};
+use tellus::planet::{Dunes, Fbm, GROUND_VERSION, Layer, Planet, Ridged, Shape, Structure, Water};
 use tellus::simd::Simd;
 use tellus::sphere::{LatLon, spread};
 use tellus::terrain::{Revision, Terrain, Wanted};
@@ -202,4 +202,13 @@ fn the_weather_decides_the_climate_as_much_as_its_share_says() {
     let differs = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>() / POINTS as f64;
     assert!(differs(&zonal, &solved) > 0.05, "{}", differs(&zonal, &solved));
     assert!(differs(&zonal, &half) < differs(&zonal, &solved));
+}
+
+/// If this fails, planets with a structure have other ground than when [`GROUND_VERSION`] was set: increase it, say there
+/// what changed, and set the new numbers.
+#[test]
+fn the_ground_changes_only_with_its_version() {
+    let heights_m = heights_m(&terrain(&steered_planet()));
+    let bits = heights_m.iter().fold(0_u64, |hash, height_m| hash.rotate_left(5) ^ height_m.to_bits());
+    assert_eq!((GROUND_VERSION, bits), (4, 6_812_205_264_180_865_247));
 }
