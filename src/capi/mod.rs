@@ -251,7 +251,7 @@ pub unsafe extern "C" fn tellus_heights_spaced(
 
 /// A distance between points as an angle.
 fn spacing_rad(terrain: &Terrain, spacing_m: f64) -> Result<f64, String> {
-    if !(spacing_m >= 0.0) {
+    if spacing_m.is_nan() || spacing_m < 0.0 {
         return Err(format!("spacing_m is {spacing_m}; use a distance in metres, or 0 for all detail"));
     }
     Ok(Detail::SpacingM(spacing_m).spacing_rad(terrain.planet().radius_m()))

@@ -58,6 +58,12 @@ pub(crate) fn read_whole(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// As [`read_whole`], of a text in UTF-8.
+#[cfg(feature = "editor")]
+pub(crate) fn read_whole_text(path: &Path, most: u64) -> io::Result<String> {
+    String::from_utf8(read_whole(path, most)?).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
+}
+
 /// The file to which a link leads, be it there or not; the path itself if it is no link.
 pub(crate) fn followed(path: &Path) -> PathBuf {
     let mut path = path.to_owned();

@@ -96,8 +96,6 @@ fn files_are_opened_for_reading_in_one_place() {
         "src/cli/bench/mod.rs",
         "src/cli/bench/sculpt.rs",
         // Strips.
-        "src/bake/strips.rs",
-        "src/bake/rows.rs",
     ];
     const CALLS: [&str; 4] = ["File::open(", "fs::read(", "read_to_string(", "image::open("];
     let mut paths = Vec::new();

@@ -21,7 +21,7 @@ const OUTGROWN: f64 = 0.8 / (RATIO * RATIO) as f64;
 const RIVERSIDE_M: f64 = 2500.0;
 /// Discharges up to which a brook rides on the layers over the structure, and from which they leave a river its bed, on
 /// a planet of the Earth's size.
-const BROOK_TO_RIVER_M3_S: [f64; 2] = [5.0, 20.0];
+const BROOK_TO_RIVER_M3_S: [f64; 2] = [1.5, 10.0];
 const EARTH_M: f64 = 6.371e6;
 /// Length of the end tangents of a reach, by its chord: the less, the nearer the curve stays to the chord.
 const STRETCH: f64 = 0.8;
