@@ -154,11 +154,14 @@ impl Ellipse {
     }
 }
 
-/// The eccentric anomaly E of a mean anomaly M = E - e sin E, both in radians.
+/// The eccentric anomaly E of a mean anomaly M = E - e sin E, both in radians; NaN where M is not finite.
 ///
 /// Newton's method from the start of Danby (The solution of Kepler's equation, Celestial Mechanics 31, 1983), safe
 /// inside an interval that holds the root.
 pub fn eccentric_anomaly(mean_rad: f64, eccentricity: f64) -> f64 {
+    if !mean_rad.is_finite() {
+        return f64::NAN;
+    }
     let turns = (mean_rad / TAU).floor() * TAU;
     let mean = mean_rad - turns;
     // The upper half of the orbit mirrors the lower one.
