@@ -1,5 +1,5 @@
 //! A lander flies from orbit to the ground: gravity and an autopilot in 64 bits, legs that touch the very heights that
-//! are drawn, the lander's own mesh in the planet's air, a preset that changes while it flies, and a walk on the ground.
+//! are drawn, the lander's own mesh in the planet's air, a preset that changes while it flies, a walk on the ground.
 //!
 //! ```sh
 //! cargo run --release --example lander             # pictures in the folder for temporary files

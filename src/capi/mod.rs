@@ -274,8 +274,8 @@ pub unsafe extern "C" fn tellus_samples(
     unsafe { tellus_samples_spaced(planet, directions, count, 0.0, samples) }
 }
 
-/// As `tellus_samples`, without rivers and valleys of a structure that points `spacing_m` metres apart would not show. 0
-/// is all of them.
+/// As `tellus_samples`, without rivers and valleys of a structure that points `spacing_m` metres apart would not show.
+/// 0 is all of them.
 ///
 /// # Safety
 /// As for `tellus_samples`.

@@ -162,6 +162,7 @@ fn command() -> clap::Command {
         TypeId::of::<[f64; 2]>(),
         TypeId::of::<(f64, f64)>(),
         TypeId::of::<u8>(),
+        TypeId::of::<u16>(),
         TypeId::of::<u32>(),
         TypeId::of::<u64>(),
         TypeId::of::<[u32; 2]>(),

@@ -2,8 +2,8 @@
 //!
 //! On the plane of longitude and latitude the globe is a rectangle. Lines that cross the antimeridian are cut there.
 //! A cut line goes on along the border of the rectangle, anticlockwise, to the beginning of the next one: what is to
-//! the left stays to the left. So a polygon may have edges at longitudes -180 and 180 and, around a pole, at latitudes -90
-//! and 90.
+//! the left stays to the left. So a polygon may have edges at longitudes -180 and 180 and, around a pole, at latitudes
+//! -90 and 90.
 
 use super::geojson::{lon_lat_deg, parts};
 use crate::sphere::LatLon;

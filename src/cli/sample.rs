@@ -43,7 +43,7 @@ pub(super) struct Args {
     points: Option<PathBuf>,
     /// Of --points the heights alone, in metres: a number on a line for each, as height_m of --json. Millions of points
     /// a minute
-    #[arg(long, requires = "points", conflicts_with_all = ["json", "time"])]
+    #[arg(long, requires = "points", conflicts_with_all = ["json", "lat", "lon", "time"])]
     heights: bool,
     /// Time in seconds, for clouds and waves
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::seconds)]

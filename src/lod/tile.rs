@@ -161,31 +161,7 @@ pub struct Tile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lod::{Quality, opening};
-    use crate::planet::Planet;
     use crate::sphere::spread;
-    use crate::terrain::Terrain;
-    use std::sync::Arc;
-
-    #[test]
-    fn normals_of_a_tile_are_read_back() {
-        // Smooth: nothing of it is finer than the vertices.
-        let text = r#"(version: 3, name: "Islet", radius_km: 40.0,
-            layers: [(name: "Hills", amplitude_m: 3000.0, shape: Fbm(wavelength_km: 60.0, octaves: 1))])"#;
-        let planet: Arc<Planet> = Planet::from_text("islet.ron", text).unwrap().into();
-        let terrain = Terrain::try_new(planet.clone()).unwrap();
-        let view = opening::opening_view(&planet, [640, 360], Quality::Low);
-        let surface = crate::tiles::build_now(&planet, &view).unwrap();
-        let vertices = surface.leaves.iter().flat_map(|leaf| leaf.tile.vertices.iter().step_by(29));
-        let mut below = 0;
-        for vertex in vertices {
-            let wanted = terrain.sample(vertex.position_planet_m()).normal_planet;
-            let found = normal_of_oct(vertex.normal_oct);
-            assert!(found.as_dvec3().distance(wanted) < 1e-3, "{found} {wanted}");
-            below += usize::from(found.z < 0.0);
-        }
-        assert!(below > 100, "{below} are of the lower half");
-    }
 
     #[test]
     fn any_two_numbers_are_a_unit_normal_and_the_corners_are_the_axes() {

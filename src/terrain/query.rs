@@ -1,7 +1,8 @@
 //! Queries: what the ground is under directions from the planet's centre.
 //!
 //! A direction may have any length. A direction without one (zero, infinite or NaN) counts as the north pole, so that
-//! every query has a finite answer; those of `checked` refuse it. All queries of a point agree to the bit: alone or in a batch, on any thread.
+//! every query has a finite answer; those of `checked` refuse it. All queries of a point agree to the bit:
+//! alone or in a batch, on any thread.
 
 use super::Terrain;
 use super::biome::Site;

@@ -1,7 +1,7 @@
 //! Water, wind and rain at points: the sea, and the lakes, rivers and weather of a planet's structure.
 //!
-//! Layers over the structure end at its rivers. Ground edits may raise the ground above a lake, which keeps its level; a
-//! river keeps its depth and follows them. Tiles draw the same water (see `wet`).
+//! Layers over the structure end at its rivers. Ground edits may raise the ground above a lake, which keeps its level;
+//! a river keeps its depth and follows them. Tiles draw the same water (see `wet`).
 
 use super::Terrain;
 use super::landform::coarsest_spacing_rad;

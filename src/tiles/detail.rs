@@ -116,6 +116,7 @@ fn between(wide: &[Texel], x: usize, y: usize) -> Texel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lod::tile::normal_of_oct;
     use crate::lod::{Quality, opening};
     use crate::planet::{Planet, shipped};
     use crate::tiles::build_now;
@@ -225,5 +226,25 @@ mod tests {
             }
         }
         assert!(wet > 300 && dry > 300 && apart * 50 < wet + dry, "{wet} wet, {dry} dry, {apart} apart");
+    }
+
+    #[test]
+    fn normals_of_a_tile_are_read_back() {
+        // Smooth: nothing of it is finer than the vertices.
+        let text = r#"(version: 3, name: "Islet", radius_km: 40.0,
+            layers: [(name: "Hills", amplitude_m: 3000.0, shape: Fbm(wavelength_km: 60.0, octaves: 1))])"#;
+        let planet: Arc<Planet> = Planet::from_text("islet.ron", text).unwrap().into();
+        let terrain = Terrain::try_new(planet.clone()).unwrap();
+        let view = opening::opening_view(&planet, [640, 360], Quality::Low);
+        let surface = build_now(&planet, &view).unwrap();
+        let vertices = surface.leaves.iter().flat_map(|leaf| leaf.tile.vertices.iter().step_by(29));
+        let mut below = 0;
+        for vertex in vertices {
+            let wanted = terrain.sample(vertex.position_planet_m()).normal_planet;
+            let found = normal_of_oct(vertex.normal_oct);
+            assert!(found.as_dvec3().distance(wanted) < 1e-3, "{found} {wanted}");
+            below += usize::from(found.z < 0.0);
+        }
+        assert!(below > 100, "{below} are of the lower half");
     }
 }

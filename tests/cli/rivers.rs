@@ -135,7 +135,7 @@ fn maps_are_written_once_and_then_read() {
     };
     assert_eq!(ask(maps.to_str().unwrap()), ask(""));
     let (status, _, err) = run(&["maps", planet, "-o", planet], "");
-    assert!(status == 1 && err.contains("cannot make the folder"), "{err}");
+    assert!(status == 1 && err.contains("is a file; name a folder"), "{err}");
 }
 
 #[test]

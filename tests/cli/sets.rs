@@ -202,7 +202,7 @@ fn heights_alone_are_those_of_samples_in_the_order_of_the_points() {
         let (code, told) = run(&[&["sample"], args].concat());
         assert!(code == status && told.contains(part), "{told}");
     };
-    refused(&[LAYERED, "--lat", "1", "--lon", "2", "--heights"], 2, "--points <FILE>");
+    refused(&[LAYERED, "--lat", "1", "--lon", "2", "--heights"], 2, "cannot be used with");
     refused(&["planets/garland.ron", "--points", text_of(&file), "--heights"], 1, "it has no ground");
 }
 

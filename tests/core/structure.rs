@@ -204,8 +204,8 @@ fn the_weather_decides_the_climate_as_much_as_its_share_says() {
     assert!(differs(&zonal, &half) < differs(&zonal, &solved));
 }
 
-/// If this fails, planets with a structure have other ground than when [`GROUND_VERSION`] was set: increase it, say there
-/// what changed, and set the new numbers.
+/// If this fails, planets with a structure have other ground than when [`GROUND_VERSION`] was set: increase it, say
+/// there what changed, and set the new numbers.
 #[test]
 fn the_ground_changes_only_with_its_version() {
     let heights_m = heights_m(&terrain(&steered_planet()));

@@ -104,8 +104,8 @@ fn foot(line: &Line, dir: DVec3) -> Option<Foot> {
     Some(Foot { share, share_gradient, bank_m: line_m * bent, bank_slope_m, offset, distance2 })
 }
 
-/// The reaches of a block near a direction. `cut` takes in their channels: with it, the number of the level, and whether
-/// that is the last one.
+/// The reaches of a block near a direction. `cut` takes in their channels: with it, the number of the level, and
+/// whether that is the last one.
 #[inline(always)]
 pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], mut cut: Option<(&mut Cut, usize, bool)>) -> Level {
     let (mut weights, mut sum) = (Jet::default(), Jet::default());

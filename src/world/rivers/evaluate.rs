@@ -64,8 +64,8 @@ impl Rivers {
         })
     }
 
-    /// Makes the blocks of the first levels at a place current. `alone`: for a point that was asked for, which may stand
-    /// alone, not for a node of a block that is built.
+    /// Makes the blocks of the first levels at a place current. `alone`: for a point that was asked for, which may
+    /// stand alone, not for a node of a block that is built.
     #[inline(always)]
     pub(super) fn find_blocks(&self, place: &FacePlace, levels: usize, alone: bool, cache: &mut Cache) {
         let is_current =
@@ -79,8 +79,8 @@ impl Rivers {
         }
     }
 
-    /// The same where a block is not current, by the spot of the place if there is one. Where a block had to be built, it
-    /// leaves a spot: others may need the memory of the block before the place is asked for again.
+    /// The same where a block is not current, by the spot of the place if there is one. Where a block had to be built,
+    /// it leaves a spot: others may need the memory of the block before the place is asked for again.
     #[inline(never)]
     fn find_spot(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
         let Some(finest) = self.grids[..levels].last() else { return };

@@ -6,7 +6,8 @@
 //!   `window`: the cells around a block
 //! - `tributaries`: the reaches between them, which drain into those before
 //! - `reach`: the curve, bed and channel of a reach, cut into straight pieces; `winding`: their bends on finer levels
-//! - `block`: pieces near a square of cells, listed by bucket; `cache`: blocks that were built, and the spots of points that stand alone
+//! - `block`: pieces near a square of cells, listed by bucket; `cache`: blocks that were built, and the
+//!   spots of points that stand alone
 //! - `blend`: the ground of one level at a point, laid over the level before
 //! - `channel`: the beds of rivers at a point, and how far layers over the structure stand from them
 //! - `courses`: rivers from source to mouth

@@ -269,8 +269,8 @@ fn a_folder_that_cannot_be_made_is_told_once() {
     assert!(store.take_problem().is_none());
 }
 
-/// If this fails, the solvers answer differently than they did when [`GROUND_VERSION`] was set: increase it, so that maps
-/// that are kept on disk are solved anew.
+/// If this fails, the solvers answer differently than they did when [`GROUND_VERSION`] was set: increase it, so that
+/// maps that are kept on disk are solved anew.
 #[test]
 fn the_version_is_that_of_the_solvers() {
     let (world, _) = solved(&Arc::new(MapStore::read_only("nowhere")), &planet(1));
