@@ -213,6 +213,19 @@ bool tellus_heights(const struct TellusPlanet *planet,
                     double *heights_m);
 
 /**
+ * As `tellus_heights`, without rivers and valleys of a structure that points `spacing_m` metres apart would not show:
+ * far cheaper where points are spread over the planet. 0 is all of them.
+ *
+ * # Safety
+ * As for `tellus_heights`.
+ */
+bool tellus_heights_spaced(const struct TellusPlanet *planet,
+                           const double *directions,
+                           size_t count,
+                           double spacing_m,
+                           double *heights_m);
+
+/**
  * The surface under `count` directions of 3 numbers each, on the calling thread. False, and nothing written, if that
  * failed.
  *
@@ -224,6 +237,19 @@ bool tellus_samples(const struct TellusPlanet *planet,
                     const double *directions,
                     size_t count,
                     struct TellusSample *samples);
+
+/**
+ * As `tellus_samples`, without rivers and valleys of a structure that points `spacing_m` metres apart would not show.
+ * 0 is all of them.
+ *
+ * # Safety
+ * As for `tellus_samples`.
+ */
+bool tellus_samples_spaced(const struct TellusPlanet *planet,
+                           const double *directions,
+                           size_t count,
+                           double spacing_m,
+                           struct TellusSample *samples);
 
 /**
  * Distance in metres along a ray (planet frame, metres from the centre) to the ground or the sea, whichever is nearer:
