@@ -4,7 +4,7 @@
 //! A part that is there is used again only if the same made it, its [`identity`], and if its bytes have the CRC-32 of
 //! those that were written. A set whose parts have no room for that has a [`Ledger`] beside them.
 
-use crate::planet::file::{open_file, read};
+use crate::planet::open::{open_file, read};
 use crate::planet::{GROUND_VERSION, Key};
 use crc32fast::Hasher;
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! What long work has in common: its threads, and how its progress is told.
 
-use super::{Failure, tell};
+use super::{Failure, args, tell};
 use clap::ValueEnum;
 use serde_json::json;
 use std::io::IsTerminal as _;
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 #[derive(clap::Args)]
 pub(super) struct WorkArgs {
     /// Threads to work on [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = |text: &str| args::whole(text, 1_u16, 1024))]
     threads: Option<u16>,
     /// How work that takes long tells its progress on standard error. auto: a percentage that counts up at a terminal,
     /// elsewhere a line a minute. json: lines of objects with progress, share, elapsed_s and left_s

@@ -10,10 +10,10 @@ use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub(crate) use super::open::{open_file, read};
+pub(crate) use super::open::read;
 #[cfg(feature = "bake")]
-pub(crate) use super::output::write_atomically_with;
-pub(crate) use super::output::{Staged, Target, stage, write_atomically};
+pub(crate) use super::output::{Staged, stage, write_atomically_with};
+pub(crate) use super::output::{Target, write_atomically};
 
 /// Longest preset that is read, in bytes: more than that of one with every list at its limit.
 pub const MAX_FILE_BYTES: u64 = 48 << 20;
