@@ -1,8 +1,8 @@
 //! The files of the maps of a bake: their names, their contents, and whether they are there already.
 //!
 //! All of them are completed in the strip folder before the first takes its place. Descriptions come last. Each has the
-//! CRC-32 of its pictures, the identity of what made them and a checksum of itself, so that files of two bakes side by
-//! side, as a power cut may leave them, are told from a bake that is done.
+//! CRC-32 of its pictures, the identity of what made them and a checksum of itself. A power cut may leave files of two
+//! bakes side by side: their checksums do not fit, and the bake is not taken for finished.
 
 use super::format::{Format, Shape, Steps};
 use super::geotiff::{self, Ground, Place};

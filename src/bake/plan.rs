@@ -104,7 +104,7 @@ const GLB_VERTEX: u64 = 48;
 const QUANTIZED_VERTEX: u64 = 36;
 const OBJ_VERTEX: u64 = 100;
 
-/// The room that vertices take at least, with textures of so many pixels in all.
+/// Least bytes of a mesh in a file. `texels`: pixels of all its textures.
 fn mesh_bytes(vertices: u64, is_quantized: bool, is_obj: bool, texels: u64) -> u64 {
     let vertex = match (is_obj, is_quantized) {
         (true, _) => OBJ_VERTEX,

@@ -53,8 +53,8 @@ fn free_bytes(folder: &Path) -> Option<u64> {
             _ => return None,
         }
     };
-    // Some file systems count nothing, and say that nothing is there.
-    #[allow(clippy::unnecessary_cast, clippy::useless_conversion)]
+    // The counts have 32 bits on some systems. A file system that counts nothing says 0 blocks.
+    #[allow(clippy::useless_conversion)]
     (about.f_blocks > 0).then(|| u64::from(about.f_bavail).saturating_mul(u64::from(about.f_frsize)))
 }
 

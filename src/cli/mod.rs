@@ -154,8 +154,8 @@ fn ended(result: Result<(), Failure>) -> ExitCode {
     }
 }
 
-/// The arguments. What begins with a hyphen after an option with a number is its value, so that a negative one hears
-/// the range; it is no option of its own.
+/// The command line with all subcommands. An option that takes a number also takes a negative one, and answers with
+/// its range; without this, `-1` would be taken for an option.
 fn command() -> clap::Command {
     let numbers = [
         TypeId::of::<f64>(),

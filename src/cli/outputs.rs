@@ -43,8 +43,8 @@ pub(super) fn check_ending(output: &Path, endings: &[&str]) -> Result<(), Failur
     Err(failed(output, format!("the name has another ending than what is written; use {}", wanted.join(" or "))))
 }
 
-/// Checks that the disk has room for work that takes at least so many bytes. `parts`: the ending of files in the folder
-/// that an earlier run of the same work may have left.
+/// Disk space check before work that writes at least `least_bytes`. `parts`: the ending of files that an earlier run of
+/// the same work may have left in the folder; their bytes count as written.
 pub(super) fn check_disk(folder: &Path, least_bytes: u64, parts: Option<&str>) -> Result<(), Failure> {
     let is_part = |path: &Path| path.extension().is_some_and(|ending| parts.is_some_and(|part| ending == part));
     let there = if parts.is_some() { bytes_in(folder, &is_part, 1) } else { 0 };

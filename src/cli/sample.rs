@@ -41,8 +41,7 @@ pub(super) struct Args {
     /// lon
     #[arg(long, value_name = "FILE", conflicts_with_all = ["lat", "lon"])]
     points: Option<PathBuf>,
-    /// Of --points the heights alone, in metres: a number on a line for each, as height_m of --json. Millions of points
-    /// a minute
+    /// Heights alone, in metres, for the points of --points: one number on a line for each point, as height_m of --json
     #[arg(long, requires = "points", conflicts_with_all = ["json", "lat", "lon", "time"])]
     heights: bool,
     /// Time in seconds, for clouds and waves

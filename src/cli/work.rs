@@ -1,4 +1,4 @@
-//! What long work has in common: its threads, and how its progress is told.
+//! Options of commands that work long: number of threads, and progress on standard error.
 
 use super::{Failure, args, tell};
 use clap::ValueEnum;
@@ -19,7 +19,7 @@ pub(super) struct WorkArgs {
     progress: How,
 }
 
-/// How progress is told.
+/// Form of the progress on standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum How {
     Auto,
@@ -27,7 +27,7 @@ enum How {
     None,
 }
 
-/// What this process was told.
+/// Form of the progress that the command line asked for.
 static HOW: OnceLock<How> = OnceLock::new();
 
 impl WorkArgs {
@@ -40,7 +40,7 @@ impl WorkArgs {
     }
 }
 
-/// Time after which a person at a terminal is told, and between lines elsewhere.
+/// Time before the first percentage at a terminal, and between lines elsewhere.
 const PATIENCE: Duration = Duration::from_secs(2);
 const LINES: Duration = Duration::from_secs(60);
 /// Least time between two objects.
@@ -50,7 +50,7 @@ const OBJECTS: Duration = Duration::from_millis(500);
 pub(super) fn told(what: &'static str) -> impl Fn(f64) -> bool + Sync {
     let (start, how) = (Instant::now(), HOW.get().copied().unwrap_or(How::Auto));
     let is_read = std::io::stderr().is_terminal();
-    // When it was told last, and the percentage.
+    // Time and percentage of the last line.
     let last: Mutex<Option<(Instant, u32)>> = Mutex::new(None);
     move |done| {
         let percent = (done * 100.0) as u32;

@@ -50,7 +50,7 @@ pub struct Sequence {
 pub struct Taken {
     /// Files that are there whole now. Fewer than [`Sequence::count`] if somebody said no.
     pub done: usize,
-    /// How many of them were there before.
+    /// Frames among them that an earlier run had made.
     pub kept: usize,
 }
 

@@ -79,7 +79,7 @@ pub(crate) fn write_over_links(path: &Path, bytes: &[u8]) -> Result<(), String> 
 pub(crate) struct Target {
     pub(super) path: PathBuf,
     pub(super) folder: PathBuf,
-    /// Those of the file that is there already.
+    /// Permissions of the file that is replaced; None for a new file.
     permissions: Option<Permissions>,
 }
 
