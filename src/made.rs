@@ -17,18 +17,9 @@ use std::sync::{Mutex, PoisonError};
 /// Longest ledger that is read: far more than a line for each of the most tiles.
 const MOST_BYTES: u64 = 1 << 26;
 
-/// Versions of all that files of a planet depend on besides its preset and what was asked for.
-#[derive(Clone, Copy, Debug)]
-#[allow(dead_code)] // All are part of identities, by what `Debug` prints.
-pub(crate) struct Versions {
-    /// The program.
-    pub(crate) program: &'static str,
-    /// All that shapes the ground.
-    pub(crate) ground: u32,
-}
-
-/// The versions of this program.
-pub(crate) const VERSIONS: Versions = Versions { program: env!("CARGO_PKG_VERSION"), ground: GROUND_VERSION };
+/// Versions of the program and of all that shapes the ground. Files of a planet depend on them besides its preset and
+/// what was asked for.
+const VERSIONS: (&str, u32) = (env!("CARGO_PKG_VERSION"), GROUND_VERSION);
 
 /// Identity of what makes a file: a planet, given by its key, what is asked for, and all versions.
 pub(crate) fn identity(planet: Key, asked: &impl Debug) -> Key {
@@ -158,8 +149,7 @@ mod tests {
         assert_eq!(identity(planet, &1), identity(planet, &1));
         assert_ne!(identity(planet, &1), identity(planet, &2));
         assert_ne!(identity(planet, &1), identity(Key::of(&"other"), &1));
-        let others = [Versions { program: "0", ..VERSIONS }, Versions { ground: 0, ..VERSIONS }];
-        for versions in others {
+        for versions in [("0", VERSIONS.1), (VERSIONS.0, 0)] {
             assert_ne!(Key::of(&(versions, planet, &1)), identity(planet, &1));
         }
     }

@@ -6,8 +6,7 @@ use super::geotiff::Ground;
 use super::maps::{Map, Range, mean_color};
 use super::occlusion::DISTANCES;
 use super::projection::Projection;
-use crate::made::VERSIONS;
-use crate::planet::{Key, Planet};
+use crate::planet::{GROUND_VERSION, Key, Planet};
 use crate::sphere::Face;
 use serde_json::{Value, json};
 
@@ -18,7 +17,7 @@ pub(super) fn of_planet(planet: &Planet) -> Value {
         "radius_m": planet.radius_m(),
         "sea_level_m": planet.sea_level_m(),
         "preset_hash": format!("{:032x}", Key::of_planet(planet).bits()),
-        "algorithm_version": VERSIONS.ground,
+        "algorithm_version": GROUND_VERSION,
         "made_by": MADE_BY,
     })
 }

@@ -172,7 +172,7 @@ impl Terrain {
 
     /// Sets how many bytes the rivers of each planet may keep for later queries, for the whole program: 192 MiB unless
     /// told. What is not kept is made again at its next query, in some milliseconds a place. A point that stands alone
-    /// takes about 20 kB, on land.
+    /// on land takes tens of kilobytes.
     pub fn keep_rivers(bytes: usize) {
         keep_bytes(bytes);
     }

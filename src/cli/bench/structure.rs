@@ -125,13 +125,12 @@ fn agents(terrain: &Terrain) -> [f64; 3] {
     let first_us = begun.elapsed().as_secs_f64() * 1e6 * cores / AGENTS as f64;
     let step_rad = AGENT_STEP_M / terrain.planet().radius_m();
     let mut tick_ms = |detail: Detail| {
-        let mut times = repeat(|| {
+        let times = repeat(|| {
             for dir in &mut dirs {
                 *dir = (*dir + dir.any_orthonormal_vector() * step_rad).normalize();
             }
             terrain.heights_detailed_m(&dirs, detail);
         });
-        times.sort_by(f64::total_cmp);
         median(&times).unwrap_or(f64::NAN)
     };
     [first_us, tick_ms(Detail::All), tick_ms(Detail::SpacingM(AGENT_SPACING_M))]

@@ -1,38 +1,18 @@
 //! How far layers over the structure stand from its rivers and lakes, as a field: 0 in their water, 1 where none is
 //! near. It masks every layer over the structure, so that none buries a river. It is no kind of layer.
 
-use super::structure::layer_shares;
+use super::structure::{Solved, layer_shares};
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet::Key;
 use crate::world::carved::Carved;
-use crate::world::rivers::Rivers;
-use std::sync::{Arc, Weak};
 
-/// The riversides of a planet. Fields of earlier revisions must not keep its maps alive, so it refers to them weakly.
-#[derive(Clone)]
-pub(crate) struct Riverside {
-    key: Option<Key>,
-    rivers: Weak<Rivers>,
-}
+/// The riversides of a planet.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Riverside(Solved);
 
 impl Riverside {
     pub(super) fn new(carved: Option<(Key, &Carved)>) -> Self {
-        match carved {
-            Some((key, carved)) => Self { key: Some(key), rivers: Arc::downgrade(&carved.rivers) },
-            None => Self { key: None, rivers: Weak::new() },
-        }
-    }
-}
-
-impl PartialEq for Riverside {
-    fn eq(&self, other: &Self) -> bool {
-        self.key == other.key
-    }
-}
-
-impl std::fmt::Debug for Riverside {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("Riverside").field(&self.key).finish()
+        Self(Solved::new(carved))
     }
 }
 
@@ -46,7 +26,7 @@ impl Evaluate for Riverside {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Some(rivers) = self.rivers.upgrade() else {
+        let Some(rivers) = self.0.rivers() else {
             scratch.sums.value[..chunk.len()].fill(1.0);
             return;
         };

@@ -7,7 +7,7 @@ use super::{Chunk, Evaluate, MAX_BANDS, Scratch};
 use crate::planet::Key;
 use crate::terrain::wet::Water;
 use crate::world::carved::Carved;
-use crate::world::rivers::{Cache, Flow, LEVELS, LayerShare, RiverPoint, Rivers};
+use crate::world::rivers::{Cache, Flow, Jet, LEVELS, RiverPoint, Rivers};
 use glam::DVec3;
 use std::cell::RefCell;
 use std::f64::consts::PI;
@@ -18,24 +18,49 @@ const VALUE_POINTS: f64 = 2.0;
 /// The same for gradients: slopes of narrower valleys would look like noise.
 const GRADIENT_POINTS: f64 = 3.0;
 
-/// The carved ground. Fields of earlier revisions must not keep its maps alive, so it refers to them weakly.
+/// The solved rivers of a planet, with their key; none until they are solved. Fields of earlier revisions must not keep
+/// the maps alive, so this refers to them weakly.
 #[derive(Clone)]
-pub(crate) struct Structure {
+pub(super) struct Solved {
     key: Option<Key>,
     rivers: Weak<Rivers>,
+}
+
+impl Solved {
+    pub(super) fn new(carved: Option<(Key, &Carved)>) -> Self {
+        let rivers = carved.map_or_else(Weak::new, |(_, carved)| Arc::downgrade(&carved.rivers));
+        Self { key: carved.map(|(key, _)| key), rivers }
+    }
+
+    /// The rivers, if they are solved and the planet still has them.
+    pub(super) fn rivers(&self) -> Option<Arc<Rivers>> {
+        self.rivers.upgrade()
+    }
+}
+
+impl PartialEq for Solved {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
+impl std::fmt::Debug for Solved {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Solved").field(&self.key).finish()
+    }
+}
+
+/// The carved ground.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Structure {
+    solved: Solved,
     bounds: (f64, f64),
 }
 
 impl Structure {
     pub(super) fn new(carved: Option<(Key, &Carved)>) -> Self {
-        match carved {
-            Some((key, carved)) => Self {
-                key: Some(key),
-                rivers: Arc::downgrade(&carved.rivers),
-                bounds: carved.rivers.bounds_near(DVec3::Z, PI),
-            },
-            None => Self { key: None, rivers: Weak::new(), bounds: (0.0, 0.0) },
-        }
+        let bounds = carved.map_or((0.0, 0.0), |(_, carved)| carved.rivers.bounds_near(DVec3::Z, PI));
+        Self { solved: Solved::new(carved), bounds }
     }
 }
 
@@ -47,10 +72,11 @@ thread_local! {
 #[derive(Default)]
 struct Memory {
     cache: Cache,
+    /// The answers at the points of the newest chunk.
     points: Vec<RiverPoint>,
     flows: Vec<Flow>,
     chunks: [LayerShares; CHUNKS],
-    next: usize,
+    newest: usize,
 }
 
 /// Chunks whose shares of layers are kept: the layers of a tile are evaluated one after the other.
@@ -62,23 +88,27 @@ struct LayerShares {
     rivers: u64,
     levels: usize,
     dirs: Vec<DVec3>,
-    shares: Vec<[LayerShare; LEVELS + 1]>,
+    shares: Vec<[Jet; LEVELS + 1]>,
+}
+
+impl LayerShares {
+    fn belongs_to(&self, rivers: &Rivers, dirs: &[DVec3], levels: usize) -> bool {
+        self.rivers == rivers.number() && self.levels == levels && self.dirs == dirs
+    }
 }
 
 impl Memory {
-    /// Evaluates rivers at the points of a chunk. The answers are in `points`, the shares of layers in the chunk whose
-    /// place is returned.
-    fn evaluate(&mut self, rivers: &Rivers, chunk: &Chunk<'_>, levels: usize) -> usize {
-        rivers.evaluate(chunk.dirs, levels, &mut self.cache, &mut self.points);
+    /// Evaluates rivers at the points of a chunk, which becomes the newest.
+    fn evaluate(&mut self, rivers: &Rivers, dirs: &[DVec3], spacing_rad: f64, levels: usize) {
+        rivers.evaluate(dirs, levels, &mut self.cache, &mut self.points);
         // Queries ask for one chunk at a time.
-        self.next = if chunk.point_spacing_rad > 0.0 { (self.next + 1) % CHUNKS } else { 0 };
-        let kept = &mut self.chunks[self.next];
+        self.newest = if spacing_rad > 0.0 { (self.newest + 1) % CHUNKS } else { 0 };
+        let kept = &mut self.chunks[self.newest];
         (kept.rivers, kept.levels) = (rivers.number(), levels);
         kept.dirs.clear();
-        kept.dirs.extend_from_slice(chunk.dirs);
+        kept.dirs.extend_from_slice(dirs);
         kept.shares.clear();
         kept.shares.extend(self.points.iter().map(|point| point.layers));
-        self.next
     }
 }
 
@@ -87,14 +117,15 @@ impl Memory {
 pub(super) fn layer_shares(
     rivers: &Rivers,
     chunk: &Chunk<'_>,
-    answer: impl FnOnce(&[[LayerShare; LEVELS + 1]], usize, &[usize]),
+    answer: impl FnOnce(&[[Jet; LEVELS + 1]], usize, &[usize]),
 ) {
     let (levels, seen) = levels_of(rivers, chunk);
     MEMORY.with_borrow_mut(|memory| {
-        let is_same =
-            |kept: &LayerShares| kept.rivers == rivers.number() && kept.levels == levels && kept.dirs == chunk.dirs;
-        let kept = memory.chunks.iter().position(is_same);
-        let kept = kept.unwrap_or_else(|| memory.evaluate(rivers, chunk, levels));
+        let kept = memory.chunks.iter().position(|kept| kept.belongs_to(rivers, chunk.dirs, levels));
+        let kept = kept.unwrap_or_else(|| {
+            memory.evaluate(rivers, chunk.dirs, chunk.point_spacing_rad, levels);
+            memory.newest
+        });
         answer(&memory.chunks[kept].shares, levels, &seen[..chunk.spacings_rad.len()]);
     });
 }
@@ -115,25 +146,16 @@ pub(crate) fn coarsest_spacing_rad(side: usize) -> f64 {
     (2.0 / (side as f64 * VALUE_POINTS)).next_down()
 }
 
-/// Evaluates rivers at unit directions, on the levels that points `spacing_rad` apart show (0: on all). Allocates
-/// nothing once the blocks around have been built.
+/// Rivers at unit directions, on the levels that points `spacing_rad` apart show (0: on all). They are not evaluated
+/// again if the thread has just done so for the heights there. Allocates nothing once the blocks around have been built.
 pub(crate) fn river_points(rivers: &Rivers, dirs: &[DVec3], spacing_rad: f64, answer: impl FnOnce(&[RiverPoint])) {
-    MEMORY.with_borrow_mut(|Memory { cache, points, .. }| {
-        rivers.evaluate(dirs, rivers.levels_for(spacing_rad, VALUE_POINTS), cache, points);
-        answer(points);
+    let levels = rivers.levels_for(spacing_rad, VALUE_POINTS);
+    MEMORY.with_borrow_mut(|memory| {
+        if !memory.chunks[memory.newest].belongs_to(rivers, dirs, levels) {
+            memory.evaluate(rivers, dirs, spacing_rad, levels);
+        }
+        answer(&memory.points);
     });
-}
-
-impl PartialEq for Structure {
-    fn eq(&self, other: &Self) -> bool {
-        self.key == other.key
-    }
-}
-
-impl std::fmt::Debug for Structure {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("Structure").field(&self.key).finish()
-    }
 }
 
 impl Evaluate for Structure {
@@ -146,14 +168,14 @@ impl Evaluate for Structure {
     }
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        self.rivers.upgrade().map_or(self.bounds, |rivers| rivers.bounds_near(dir_planet, angle_rad))
+        self.solved.rivers().map_or(self.bounds, |rivers| rivers.bounds_near(dir_planet, angle_rad))
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Some(rivers) = self.rivers.upgrade() else { return };
+        let Some(rivers) = self.solved.rivers() else { return };
         let (levels, seen) = levels_of(&rivers, chunk);
         MEMORY.with_borrow_mut(|memory| {
-            memory.evaluate(&rivers, chunk, levels);
+            memory.evaluate(&rivers, chunk.dirs, chunk.point_spacing_rad, levels);
             let Memory { cache, points, flows, .. } = memory;
             for (value, point) in scratch.sums.value.iter_mut().zip(&*points) {
                 *value += point.height_m;

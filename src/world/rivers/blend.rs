@@ -20,10 +20,10 @@ use glam::DVec3;
 const TINY: f64 = 1e-24;
 
 /// A number and its tangential gradient by the direction.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Jet {
-    pub(super) value: f64,
-    pub(super) gradient: DVec3,
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Jet {
+    pub(crate) value: f64,
+    pub(crate) gradient: DVec3,
 }
 
 impl Jet {

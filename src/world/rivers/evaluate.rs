@@ -7,7 +7,7 @@ use super::channel::Cut;
 use super::grid::{FacePlace, Grid, RATIO};
 use super::reach::FREEBOARD;
 use super::shore::{Lakeside, sunk};
-use super::{LayerShare, River, RiverPoint, Rivers};
+use super::{River, RiverPoint, Rivers};
 use crate::simd::{Simd, for_each_simd};
 use glam::DVec3;
 use std::sync::Arc;
@@ -255,7 +255,7 @@ impl Rivers {
         let off_lakes = at.lakeside.map(|lakeside| lakeside.beside());
         let layers = beside.map(|beside| {
             let Jet { value, gradient } = off_lakes.map_or(beside, |off| beside.times(off));
-            LayerShare { value, gradient: gradient - dir * gradient.dot(dir) }
+            Jet { value, gradient: gradient - dir * gradient.dot(dir) }
         });
         let lake_level_m = at.lakeside.and_then(|lakeside| self.shore_m(&lakeside, at.dry_bank_m));
         let mut point = RiverPoint {

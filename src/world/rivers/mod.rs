@@ -44,6 +44,7 @@ mod window;
 
 use super::drainage::Drainage;
 use crate::sphere::raster::Raster;
+pub(crate) use blend::Jet;
 use bounds::Bounds;
 use cache::Blocks;
 pub(crate) use cache::{Cache, LEVELS, keep_bytes};
@@ -82,21 +83,14 @@ pub(crate) struct RiverPoint {
     pub(crate) lake: u32,
     /// Height of its surface, if that is higher than the sea: on dry ground, too.
     pub(crate) lake_level_m: Option<f64>,
-    /// The part of layers over the structure that stands here, beside the rivers of no level, of the first, of the
-    /// first two, and so on; those of levels that were not asked for are 1.
-    pub(crate) layers: [LayerShare; LEVELS + 1],
+    /// The part of layers over the structure that stands here: 0 in the water of rivers and lakes, 1 where none is near.
+    /// Beside the rivers of no level, of the first, of the first two, and so on; levels that were not asked for have
+    /// none. Gradients are tangential.
+    pub(crate) layers: [Jet; LEVELS + 1],
     /// From -1 in valleys to 1 on ridges.
     pub(crate) ridge: f64,
     /// The nearest reach, if one is near.
     pub(crate) river: Option<River>,
-}
-
-/// How far layers over the structure stand from rivers and lakes: 0 in their water, 1 where nothing is near. A number
-/// with its tangential gradient by the direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct LayerShare {
-    pub(crate) value: f64,
-    pub(crate) gradient: DVec3,
 }
 
 /// A river or a dry valley near a point.
