@@ -182,7 +182,7 @@ namespace Tellus
             Check(Native.tellus_tile_indices(cells + 1, indices));
         }
 
-        /// How far a capsule between two ends (six numbers) moves until it is skinM from the ground; null if it does not.
+        /// Where a capsule between two ends (six numbers) is skinM from the ground as it moves; null if it never is.
         public Contact? Sweep(double[] endsM, double radiusM, double[] motionM, double skinM = 0.0)
         {
             if (endsM.Length != 6 || motionM.Length != 3)

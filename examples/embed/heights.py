@@ -60,7 +60,7 @@ def load(path):
 
 
 def room_for(kind, directions):
-    """Room for an answer to each direction. The library cannot see how long a buffer is: this is where it is checked."""
+    """Room for an answer to each direction. The library cannot see how long a buffer is: it is checked here."""
     if len(directions) % 3 != 0:
         raise ValueError(f"directions have three numbers each, not {len(directions)} in all")
     return (kind * (len(directions) // 3))()

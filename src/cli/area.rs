@@ -2,7 +2,7 @@
 
 use super::{args, tell};
 use crate::bake::{Detail, Region};
-use clap::builder::{PossibleValuesParser, TypedValueParser as _};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// A region, or none.
 #[derive(clap::Args)]
@@ -43,9 +43,14 @@ pub(super) struct DetailArgs {
         long,
         value_name = "DETAIL",
         default_value = "all",
-        value_parser = PossibleValuesParser::new(Detail::ALL.map(Detail::name)).try_map(|name| Detail::named(&name).ok_or(name))
+        value_parser = detail()
     )]
     pub(super) detail: Detail,
+}
+
+/// Parser of the names of [`Detail`].
+pub(super) fn detail() -> impl TypedValueParser<Value = Detail> {
+    PossibleValuesParser::new(Detail::ALL.map(Detail::name)).try_map(|name| Detail::named(&name).ok_or(name))
 }
 
 /// Tells that a bake takes long, and what would be faster.

@@ -1,7 +1,7 @@
 //! `tellus bake`: maps of a planet in files.
 
 use super::work::{WorkArgs, in_words, told};
-use super::{Failure, args, load_as_source, maps, outputs, tell};
+use super::{Failure, area, args, load_as_source, maps, outputs, tell};
 use crate::bake::{
     Bake, Detail, Format, Landscape, MAX_SIZE, Map, MapPlan, Outcome, Projection, Quadtree, Region, Shard,
 };
@@ -13,8 +13,9 @@ use std::sync::Arc;
 #[derive(clap::Args)]
 #[command(
     after_help = "The same command goes on where it was interrupted, and does nothing once all is done. Strips of \
-    the maps are kept in the folder until all are there; damaged ones are made anew. With --shard several processes or machines each make a part of them; the command without \
-    --shard then joins them. Copy the folders of machines with disks of their own together first."
+    the maps are kept in the folder until all are there; damaged ones are made anew. With --shard several processes or \
+    machines each make a part of them; the command without --shard then joins them. Copy the folders of machines \
+    with disks of their own together first."
 )]
 pub(super) struct Args {
     /// The preset
@@ -95,7 +96,7 @@ pub(super) struct Args {
         long,
         value_name = "DETAIL",
         default_value = "pixel",
-        value_parser = PossibleValuesParser::new(Detail::ALL.map(Detail::name)).try_map(|name| Detail::named(&name).ok_or(name))
+        value_parser = area::detail()
     )]
     detail: Detail,
     /// Heights in metres that whole numbers run between [default: the lowest and the highest of the map]
@@ -135,8 +136,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let (pixels, time) = (expected.pixels, in_words(expected.secs));
         let (threads, megabytes) = (rayon::current_num_threads(), expected.strip_bytes.div_ceil(1_000_000));
         tell(&format!(
-            "note: all detail of {pixels} pixels takes about {time} on {threads} threads, and {megabytes} MB of disk for \
-             strips; --detail pixel leaves out what is narrower than pixels"
+            "note: all detail of {pixels} pixels takes about {time} on {threads} threads, and {megabytes} MB of disk \
+             for strips; --detail pixel leaves out what is narrower than pixels"
         ));
     }
     match bake.run(&args.output, &told("baked")).map_err(|error| error.to_string())? {

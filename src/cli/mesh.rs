@@ -42,7 +42,12 @@ pub(super) struct Args {
     water: MeshWater,
     /// Levels of detail, each with half the vertices of the one before along a side: nodes NAME_LOD0, NAME_LOD1 and so
     /// on, linked by MSFT_lod in a .glb
-    #[arg(long, value_name = "N", default_value = "1", value_parser = |text: &str| args::whole(text, 1, MeshBake::MOST_LEVELS))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "1",
+        value_parser = |text: &str| args::whole(text, 1, MeshBake::MOST_LEVELS)
+    )]
     lods: u32,
     /// Depth of skirts around the squares, which hide gaps between levels of detail: at most half the planet's radius,
     /// and with --quantize a side of a square

@@ -11,9 +11,8 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 #[command(
     after_help = "Tiles are in the planet frame, metres: Z to the north pole, X to 0°N 0°E. Level N has 2^N squares along \
-    each side of the six faces. With a region, levels beyond 2 are \
-    there alone. The same command goes on where it was interrupted, makes damaged tiles anew, and does nothing once all \
-    is done."
+    each side of the six faces. With a region, levels beyond 2 are there alone. The same command goes on where it was \
+    interrupted, makes damaged tiles anew, and does nothing once all is done."
 )]
 pub(super) struct Args {
     /// The preset
@@ -23,10 +22,20 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// The finest level
-    #[arg(long, value_name = "N", default_value = "4", value_parser = |text: &str| args::whole(text, 0, Tileset::MOST_LEVELS))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "4",
+        value_parser = |text: &str| args::whole(text, 0, Tileset::MOST_LEVELS)
+    )]
     levels: u8,
     /// Cells along a side of a tile
-    #[arg(long, value_name = "N", default_value = "64", value_parser = |text: &str| args::whole(text, 2, Tileset::MOST_CELLS))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "64",
+        value_parser = |text: &str| args::whole(text, 2, Tileset::MOST_CELLS)
+    )]
     cells: u32,
     /// Width of textures of colour, normals and roughness, of each tile; without it vertices have colours
     #[arg(long, value_name = "PIXELS", value_parser = |text: &str| args::whole(text, 2, Tileset::MOST_TEXTURE))]

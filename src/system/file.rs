@@ -206,14 +206,16 @@ impl System {
                 |other: &&usize| apart_m(**other).is_nan() || apart_m(**other) < size_m(body) + size_m(**other);
             let Some(&other) = real[..count].iter().find(touches) else { continue };
             let field = if self.bodies[body].orbit.is_some() { "orbit" } else { "start" };
-            let message = format!(
-                "`{}` and `{}` are at one place at time zero: their centres are {:.3} km apart, and their sizes ask for \
-                 {:.0} km; use another orbit or anomaly_deg",
-                self.bodies[body].name,
-                self.bodies[other].name,
-                apart_m(other) / 1000.0,
-                (size_m(body) + size_m(other)) / 1000.0
-            );
+            let [a, b] = [body, other].map(|body| &self.bodies[body].name);
+            let (apart_km, least_km) = (apart_m(other) / 1000.0, (size_m(body) + size_m(other)) / 1000.0);
+            let message = if apart_km.is_nan() {
+                format!("the places of `{a}` and `{b}` at time zero cannot be computed; use another orbit")
+            } else {
+                format!(
+                    "`{a}` and `{b}` are at one place at time zero: their centres are {apart_km:.3} km apart, and \
+                     their sizes ask for {least_km:.0} km; use another orbit or anomaly_deg"
+                )
+            };
             found.push((path_of(body, field), message));
         }
         found

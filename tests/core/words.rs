@@ -111,8 +111,8 @@ fn signs_that_mean_nothing_are_explained() {
         ("(version: 3, radius_km: 1e300)", "f.ron:1:25: radius_km: 1e300 is out of range; use 1 to 100000 km"),
         (
             "(version: 1, name: \"Hearth\", bodies: [])",
-            "f.ron:1:30: this is a system file, not a preset; name the preset of one of its planets, or one of its bodies \
-             (--body)",
+            "f.ron:1:30: this is a system file, not a preset; name the preset of one of its planets, or one of its \
+             bodies (--body)",
         ),
     ] {
         let message = Planet::from_text("f.ron", text).unwrap_err().to_string();

@@ -147,7 +147,7 @@ pub(crate) fn coarsest_spacing_rad(side: usize) -> f64 {
 }
 
 /// Rivers at unit directions, on the levels that points `spacing_rad` apart show (0: on all). They are not evaluated
-/// again if the thread has just done so for the heights there. Allocates nothing once the blocks around have been built.
+/// again if the thread has just done so for the heights there. Allocates nothing once the blocks around are built.
 pub(crate) fn river_points(rivers: &Rivers, dirs: &[DVec3], spacing_rad: f64, answer: impl FnOnce(&[RiverPoint])) {
     let levels = rivers.levels_for(spacing_rad, VALUE_POINTS);
     MEMORY.with_borrow_mut(|memory| {
