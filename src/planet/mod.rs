@@ -106,8 +106,9 @@ pub const VERSION: u32 = 3;
 /// presets have equal heights, to the bit, wherever this version is the same; files that were made of a planet tell it.
 /// It grows with every change of a height, also of planets with a structure alone; tests of solved worlds say when.
 ///
+/// - 5: lakes have a rim where lower ground lies beside them; layers make islands in shallow lakes
 /// - 4: layers over a structure end at its rivers and lakes; wide rivers have their bed on their whole width
-pub const GROUND_VERSION: u32 = 4;
+pub const GROUND_VERSION: u32 = 5;
 
 /// Most layers a planet may have.
 pub const MAX_LAYERS: usize = 64;

@@ -26,6 +26,9 @@ fn floor_m(level: &Level<'_>, cell: usize, bed_m: f64) -> f64 {
     rock_m + (bed_m - rock_m).max(0.0) * (0.4 * level.params.deposition).min(0.9)
 }
 
+/// How far ground beside a lake may lie below its surface, metres: beds that many cells share are raised a little each.
+const LEAK_M: f64 = 5.0;
+
 impl Lakes {
     /// Finds the lakes. `beds_m` is raised to the surface of each lake, and beyond it so far that it still falls along
     /// all routes.
@@ -42,16 +45,18 @@ impl Lakes {
         }
         lakes.ground_m = beds_m.to_vec();
         if level.params.lakes > 0.0 {
-            lakes.add_open(level, routes, beds_m);
+            let carved_m = beds_m.to_vec();
+            lakes.add_open(level, cells, routes, &carved_m, beds_m);
             for _ in 0..2 {
-                lakes.close_gaps(level, cells);
+                lakes.close_gaps(level, cells, &carved_m);
             }
         }
         lakes
     }
 
-    /// Basins with an outlet: the rock under a river bed lies lower than the outlet of the basin has been cut.
-    fn add_open(&mut self, level: &Level<'_>, routes: &Routes, beds_m: &mut [f64]) {
+    /// Basins with an outlet: the rock under a river bed lies lower than the outlet of the basin has been cut. Cells
+    /// beside lower ground of another basin stay dry: they are the rim of the lake. `carved_m`: beds without lakes.
+    fn add_open(&mut self, level: &Level<'_>, cells: &Cells, routes: &Routes, carved_m: &[f64], beds_m: &mut [f64]) {
         let least_m = LEAST_DEPTH_M / level.params.lakes;
         for &cell in &routes.order {
             let (cell, to) = (cell as usize, routes.receiver[cell as usize] as usize);
@@ -61,11 +66,15 @@ impl Lakes {
             let (below, rock_m) = (self.lake[to], floor_m(level, cell, beds_m[cell]));
             let joined = below.checked_sub(1).map(|k| self.lakes[k as usize]).filter(|lake| lake.outlet.is_some());
             if let Some(lake) = joined {
-                if rock_m < lake.level_m - 0.5 * least_m {
+                if rock_m < lake.level_m - 0.5 * least_m && self.is_held(cells, cell, (below, lake.level_m), carved_m) {
                     self.flood(level, cell, below, beds_m);
                     continue;
                 }
-            } else if below == 0 && !level.is_sea[to] && rock_m < beds_m[to] - least_m {
+            } else if below == 0
+                && !level.is_sea[to]
+                && rock_m < beds_m[to] - least_m
+                && self.is_held(cells, cell, (self.lakes.len() as u32 + 1, beds_m[to]), carved_m)
+            {
                 self.lakes.push(Lake { level_m: beds_m[to], outlet: Some(to as u32), area_sr: 0.0 });
                 let number = self.lakes.len() as u32;
                 self.flood(level, cell, number, beds_m);
@@ -77,7 +86,7 @@ impl Lakes {
     }
 
     /// Floods low ground that a lake surrounds: small rivers have laid it down.
-    fn close_gaps(&mut self, level: &Level<'_>, cells: &Cells) {
+    fn close_gaps(&mut self, level: &Level<'_>, cells: &Cells, carved_m: &[f64]) {
         const MOST_M: f64 = 60.0;
         let before = self.lake.clone();
         let is_beside = |&cell: &u32| {
@@ -91,13 +100,22 @@ impl Lakes {
                 continue;
             };
             let wet = around.iter().filter(|&&other| before[other as usize] == number).count();
-            let lake = &mut self.lakes[number as usize - 1];
-            if wet >= 5 && self.ground_m[cell] < lake.level_m + MOST_M {
+            let level_m = self.lakes[number as usize - 1].level_m;
+            let is_low = self.ground_m[cell] < level_m + MOST_M;
+            if wet >= 5 && is_low && self.is_held(cells, cell, (number, level_m), carved_m) {
+                let lake = &mut self.lakes[number as usize - 1];
                 self.lake[cell] = number;
                 self.ground_m[cell] = self.ground_m[cell].min(lake.level_m - 1.0);
                 lake.area_sr += level.areas_sr[cell];
             }
         }
+    }
+
+    /// Whether a cell can be part of a lake (its number and level): beside it nothing lies lower but the lake itself.
+    /// What drains into a lake has beds above its level.
+    fn is_held(&self, cells: &Cells, cell: usize, (number, level_m): (u32, f64), beds_m: &[f64]) -> bool {
+        let holds = |&other: &u32| self.lake[other as usize] == number || beds_m[other as usize] > level_m - LEAK_M;
+        cells.around(cell).iter().all(holds)
     }
 
     fn flood(&mut self, level: &Level<'_>, cell: usize, number: u32, beds_m: &mut [f64]) {
@@ -128,6 +146,11 @@ impl Lakes {
                 // Marshes and plains around the lake lose water too.
                 let dry_m = 1.8 * level.dryness_mm[cell as usize].max(300.0) * 1e-3;
                 if !wet.is_empty() && lost + dry_m * level.areas_sr[cell as usize] > inflow {
+                    break;
+                }
+                // Its water would run over into another basin.
+                let next_m = level_m.max(beds_m[cell as usize]);
+                if !wet.is_empty() && !self.is_held(cells, cell as usize, (number, next_m), beds_m) {
                     break;
                 }
                 lost += dry_m * level.areas_sr[cell as usize];

@@ -362,6 +362,35 @@ fn a_dry_basin_keeps_its_water_and_a_wet_one_overflows() {
     }
 }
 
+/// Without a rim the water of a lake would stand as a wall beside lower ground.
+#[test]
+fn lakes_have_rims() {
+    let rough = |side: usize| {
+        let mut island = Island::new(side);
+        island.params = Params { lakes: 1.5, age_myr: 4.0, ..island.params };
+        for (uplift_m, dir) in island.uplift_m.iter_mut().zip(&Cells::of(side).dirs) {
+            *uplift_m *= (0.7 + 0.9 * fbm(*dir, 9.0, 4, 0.6, 8)).clamp(0.0, 1.0);
+        }
+        island
+    };
+    for island in [basin(), rough(32), rough(64)] {
+        for (runoff_mm, dryness_mm) in [(60.0, 1500.0), (900.0, -300.0)] {
+            let count = island.even.len();
+            let found = island.solved_with(&vec![runoff_mm; count], &vec![dryness_mm; count], None, &|| true).unwrap();
+            let cells = Cells::of(island.side);
+            let (mut shores, mut walls) = (0, 0);
+            for (cell, &number) in found.lake.iter().enumerate().filter(|(_, number)| **number != 0) {
+                let level_m = found.lakes[number as usize - 1].level_m;
+                for other in cells.around(cell).into_iter().map(|other| other as usize) {
+                    shores += usize::from(found.lake[other] != number);
+                    walls += usize::from(found.lake[other] != number && found.bed_m[other] < level_m - 10.0);
+                }
+            }
+            assert!(shores > 20 && walls == 0, "{} {runoff_mm}: {walls} of {shores}", island.side);
+        }
+    }
+}
+
 #[test]
 fn equal_bits_on_any_number_of_threads_and_an_end_when_told() {
     let island = Island::new(32);

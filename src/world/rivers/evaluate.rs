@@ -251,7 +251,7 @@ impl Rivers {
         if let Some(gradient) = gradients.get_mut(levels) {
             *gradient = bed.gradient - dir * bed.gradient.dot(dir);
         }
-        // Layers leave lakes alone, too.
+        // In lakes layers are lower, too.
         let off_lakes = at.lakeside.map(|lakeside| lakeside.beside());
         let layers = beside.map(|beside| {
             let Jet { value, gradient } = off_lakes.map_or(beside, |off| beside.times(off));

@@ -83,9 +83,9 @@ pub(crate) struct RiverPoint {
     pub(crate) lake: u32,
     /// Height of its surface, if that is higher than the sea: on dry ground, too.
     pub(crate) lake_level_m: Option<f64>,
-    /// The part of layers over the structure that stands here: 0 in the water of rivers and lakes, 1 far from all.
-    /// Beside the rivers of no level, of the first, of the first two, and so on; levels that were not asked for have
-    /// none. Gradients are tangential.
+    /// The part of layers over the structure that stands here: 0 in the water of rivers, little in lakes, 1 far from
+    /// all. Beside the rivers of no level, of the first, of the first two, and so on; levels that were not asked for
+    /// have none. Gradients are tangential.
     pub(crate) layers: [Jet; LEVELS + 1],
     /// From -1 in valleys to 1 on ridges.
     pub(crate) ridge: f64,

@@ -17,8 +17,10 @@ const SINKS_M: f64 = 80.0;
 const BEYOND_M: f64 = 40.0;
 /// Shares of lake cells around a point between which the solved bed takes over from the banks of reaches.
 pub(super) const OFF_SHORE: [f64; 2] = [0.25, 0.6];
-/// Share of lake cells around a point from which no layer over the structure stands.
-const LAYERS_OFF: f64 = 0.5;
+/// Share of lake cells around a point from which layers over the structure are lowest, and how far they stand then: in
+/// shallow water they still make islands and bays.
+const OFF_LAYERS: f64 = 0.5;
+const ISLANDS: f64 = 0.4;
 /// Depth of the solved bed from which rivers and the relief between them add nothing, metres.
 pub(super) const SHALLOWS_M: f64 = 30.0;
 
@@ -81,11 +83,11 @@ impl Rivers {
 }
 
 impl Lakeside {
-    /// How far layers over the structure stand from the lakes: 0 off their shores, 1 where none is near.
+    /// How far layers over the structure stand from the lakes: 1 where none is near, [`ISLANDS`] off their shores.
     #[inline(always)]
     pub(super) fn beside(&self) -> Jet {
-        let share = self.share.scaled(-1.0 / LAYERS_OFF).plus_number(1.0);
-        if share.value > 0.0 { share } else { Jet::default() }
+        let share = self.share.scaled((ISLANDS - 1.0) / OFF_LAYERS).plus_number(1.0);
+        if share.value > ISLANDS { share } else { Jet { value: ISLANDS, gradient: DVec3::ZERO } }
     }
 
     /// Off the shore the solved bed holds: no spit of land follows the last reach of each river.
