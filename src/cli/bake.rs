@@ -90,8 +90,8 @@ pub(super) struct Args {
     )]
     km: Option<f64>,
     /// pixel: without valleys and rivers of a structure that are too narrow for the pixels, as the planet is drawn from
-    /// afar. all: what `tellus sample` answers; where pixels are farther apart than valleys it takes a thousand times
-    /// as long, which is said before
+    /// afar. all: what `tellus sample` answers; where pixels are farther apart than valleys it takes far longer,
+    /// which is said before
     #[arg(
         long,
         value_name = "DETAIL",

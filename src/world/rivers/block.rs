@@ -1,4 +1,5 @@
-//! A block: the pieces of all reaches near a square of cells, listed for each bucket of that square.
+//! A block: the pieces of all reaches near a square of cells, listed for each bucket of that square. Most blocks have
+//! places of their own in their level; those of a point that stands alone are as small as the point needs.
 
 use super::grid::{Cell, FacePlace, Grid, RATIO};
 use super::reach::{Line, Piece, Stream};
@@ -7,8 +8,16 @@ use glam::{DVec2, DVec3};
 
 /// Cells along the side of a block.
 pub(super) const BLOCK: usize = 16;
-/// Buckets along the side of a block.
-const BUCKETS: usize = BLOCK * RATIO;
+
+/// A square of cells of one level and face. It may reach beyond the right and the lower edge of the face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Square {
+    pub(super) face: usize,
+    pub(super) left: usize,
+    pub(super) top: usize,
+    /// Cells along its side.
+    pub(super) side: usize,
+}
 
 /// The pieces that the ground of a square of cells depends on. Their order is the same in every block: by level, then
 /// by cell, then along the reach.
@@ -33,24 +42,47 @@ pub(super) fn block_of(grid: &Grid, cell: Cell) -> u64 {
     ((cell.face * side + cell.y / BLOCK) * side + cell.x / BLOCK) as u64
 }
 
-/// The cells of a block.
-pub(super) fn cells_of(grid: &Grid, block: u64) -> impl Iterator<Item = Cell> {
-    let (side, block, end) = (grid.side.div_ceil(BLOCK), block as usize, grid.side);
-    let (face, left, top) = (block / (side * side), block % side * BLOCK, block / side % side * BLOCK);
-    (top..(top + BLOCK).min(end)).flat_map(move |y| (left..(left + BLOCK).min(end)).map(move |x| Cell { face, x, y }))
+impl Square {
+    /// The cells of a block.
+    pub(super) fn of_block(grid: &Grid, block: u64) -> Self {
+        let (side, block) = (grid.side.div_ceil(BLOCK), block as usize);
+        Self { face: block / (side * side), left: block % side * BLOCK, top: block / side % side * BLOCK, side: BLOCK }
+    }
+
+    pub(super) fn of_cell(cell: Cell) -> Self {
+        Self { face: cell.face, left: cell.x, top: cell.y, side: 1 }
+    }
+
+    /// The square of the level before that holds this one with some rings around it. None if those leave the face.
+    pub(super) fn parents(&self, grid: &Grid, rings: usize) -> Option<Self> {
+        let [left, top] = [self.left.checked_sub(rings)? / RATIO, self.top.checked_sub(rings)? / RATIO];
+        let last = self.left.max(self.top) + self.side + rings;
+        let end = |first: usize| (first + self.side - 1 + rings) / RATIO + 1;
+        let side = (end(self.left) - left).max(end(self.top) - top);
+        (last <= grid.side).then_some(Self { face: self.face, left, top, side })
+    }
+
+    /// Its cells, row by row.
+    pub(super) fn cells(self, grid: &Grid) -> impl Iterator<Item = Cell> {
+        let Self { face, left, top, side } = self;
+        let [right, bottom] = [left, top].map(|first| (first + side).min(grid.side));
+        (top..bottom).flat_map(move |y| (left..right).map(move |x| Cell { face, x, y }))
+    }
 }
 
 impl Block {
     /// Sorts pieces into buckets. Those that reach no bucket are left out.
-    pub(super) fn new(grid: &Grid, block: u64, all: &[Piece]) -> Self {
-        let touch = Touch::new(grid, block);
+    pub(super) fn new(grid: &Grid, square: &Square, all: &[Piece]) -> Self {
+        let touch = Touch::new(grid, square);
+        let buckets = touch.buckets;
         let (mut lines, mut streams) = (Vec::with_capacity(all.len()), Vec::with_capacity(all.len()));
-        let mut starts = vec![0_u32; BUCKETS * BUCKETS + 1];
+        let mut starts = vec![0_u32; buckets * buckets + 1];
         let mut found: Vec<(u32, u16)> = Vec::with_capacity(16 * all.len());
         for piece in all {
             let Some(strip) = touch.strip(piece, 1.0) else { continue };
             let (number, before) = (lines.len() as u16, found.len());
-            strip.each_bucket(|bucket| {
+            strip.each_bucket(|x, y| {
+                let bucket = (y - touch.corner[1]) * buckets + x - touch.corner[0];
                 starts[bucket + 1] += 1;
                 found.push((bucket as u32, number));
             });
@@ -62,7 +94,7 @@ impl Block {
                 break;
             }
         }
-        for bucket in 0..BUCKETS * BUCKETS {
+        for bucket in 0..buckets * buckets {
             starts[bucket + 1] += starts[bucket];
         }
         let mut next = starts.clone();
@@ -75,7 +107,7 @@ impl Block {
         lines.shrink_to_fit();
         streams.shrink_to_fit();
         let Touch { face, side, corner, .. } = touch;
-        Self { lines, streams, starts, lists, face, side, corner, buckets: BUCKETS }
+        Self { lines, streams, starts, lists, face, side, corner, buckets }
     }
 
     /// A square of `buckets` by `buckets` buckets of this block alone, from one of them on.
@@ -156,38 +188,38 @@ impl Block {
     }
 }
 
-/// Tells which buckets of a block a piece touches.
+/// Tells which buckets of a square a piece touches. The buckets of a piece are the same in each square.
 pub(super) struct Touch {
     face: usize,
-    /// Buckets along the side of a face, and the first of the block.
+    /// Buckets along the side of a face, the first of the square, and how many it has along its side.
     side: usize,
     corner: [usize; 2],
+    buckets: usize,
     /// Outwards, to the right and down on the face.
     axes: [DVec3; 3],
 }
 
 /// A piece on the plane of a face, where great circles are straight, with all that it influences: in buckets from the
-/// corner of the block.
+/// corner of the face.
 struct Strip {
     start: DVec2,
     along: DVec2,
     reach: f64,
-    /// The rectangle of buckets around it within the block: left, top, right, bottom.
+    /// The rectangle of buckets around it within the square: left, top, right, bottom.
     bounds: [usize; 4],
 }
 
 impl Touch {
-    pub(super) fn new(grid: &Grid, block: u64) -> Self {
-        let (blocks, number) = (grid.side.div_ceil(BLOCK), block as usize);
-        let face = number / (blocks * blocks);
+    pub(super) fn new(grid: &Grid, square: &Square) -> Self {
+        let face = square.face;
         // The map of a face is linear before it is made a unit vector.
         let out = cube_direction(face, 2, 1.0, 1.0);
         let step = |x: f64, y: f64| {
             let p = cube_direction(face, 2, x, y);
             p / p.dot(out) - out
         };
-        let corner = [number % blocks * BUCKETS, number / blocks % blocks * BUCKETS];
-        Self { face, side: grid.side * RATIO, corner, axes: [out, step(2.0, 1.0), step(1.0, 2.0)] }
+        let corner = [square.left * RATIO, square.top * RATIO];
+        Self { face, side: grid.side * RATIO, corner, buckets: square.side * RATIO, axes: [out, step(2.0, 1.0), step(1.0, 2.0)] }
     }
 
     /// Whether a piece touches the block with its influence divided by `finer`.
@@ -202,27 +234,29 @@ impl Touch {
         let aside = if finer > 1.0 { 0.25 / piece.line.per_length2.sqrt() } else { 0.0 };
         let [out, right, down] = self.axes;
         let half = 0.5 * self.side as f64;
-        let [left, top] = self.corner.map(|corner| corner as f64);
         let mut steepest = 1.0_f64;
         let mut place = |dir: DVec3| {
             let depth = dir.dot(out);
             let (s, t) = (dir.dot(right) / depth, dir.dot(down) / depth);
             steepest = steepest.max(1.0 + s * s + t * t);
-            (depth > 0.25).then(|| DVec2::new((s + 1.0) * half - left, (t + 1.0) * half - top))
+            (depth > 0.25).then(|| DVec2::new((s + 1.0) * half, (t + 1.0) * half))
         };
         let (start, end) = (place(piece.line.start)?, place(piece.line.start + piece.line.along)?);
         // A step of an angle moves a point on the face by at most its distance from the eye, squared.
         let reach = (influence + aside) * steepest * 1.2 * half;
-        let clamped = |bucket: f64| bucket.clamp(0.0, BUCKETS as f64) as usize;
+        let clamped = |bucket: f64, axis: usize| {
+            let corner = self.corner[axis] as f64;
+            bucket.clamp(corner, corner + self.buckets as f64) as usize
+        };
         let (least, most) = (start.min(end) - reach, start.max(end) + reach);
-        let bounds = [clamped(least.x), clamped(least.y), clamped(most.x + 1.0), clamped(most.y + 1.0)];
+        let bounds = [clamped(least.x, 0), clamped(least.y, 1), clamped(most.x + 1.0, 0), clamped(most.y + 1.0, 1)];
         (bounds[0] < bounds[2] && bounds[1] < bounds[3]).then_some(Strip { start, along: end - start, reach, bounds })
     }
 }
 
 impl Strip {
-    /// Calls with the number of each bucket that the strip touches.
-    fn each_bucket(&self, mut call: impl FnMut(usize)) {
+    /// Calls with the column and row of each bucket that the strip touches.
+    fn each_bucket(&self, mut call: impl FnMut(usize, usize)) {
         // Half the diagonal of a bucket.
         let reach = self.reach + 0.7072;
         let per_length2 = 1.0 / self.along.length_squared().max(1e-30);
@@ -232,7 +266,7 @@ impl Strip {
                 let v = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) - self.start;
                 let foot = v - self.along * (v.dot(self.along) * per_length2).clamp(0.0, 1.0);
                 if foot.length_squared() <= reach * reach {
-                    call(y * BUCKETS + x);
+                    call(x, y);
                 }
             }
         }

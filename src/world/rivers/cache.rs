@@ -1,8 +1,7 @@
 //! Blocks that were built, kept for all threads. What is kept changes no answer.
 //!
 //! Points that lie close together share blocks. Points that are spread over the planet, such as the people of a game,
-//! would need more blocks than memory holds: the pieces near the cell of such a point, its spot, are a few kilobytes,
-//! and are kept when the blocks that they were taken from are gone.
+//! would need more blocks than memory holds: they have the pieces near their cell alone, a spot of a few kilobytes.
 
 use super::block::Block;
 use std::collections::BTreeMap;
@@ -53,13 +52,18 @@ impl Blocks {
     }
 
     /// The spot of a cell, if it is kept.
-    pub(super) fn spot(&self, levels: usize, cell: u64) -> Option<Spot> {
-        self.spots.find(cell, &(levels, cell))
+    pub(super) fn spot(&self, key: (usize, u64)) -> Option<Spot> {
+        self.spots.find(key.1, &key)
     }
 
-    pub(super) fn keep_spot(&self, levels: usize, cell: u64, spot: &Spot) {
+    pub(super) fn keep_spot(&self, key: (usize, u64), spot: &Spot) {
         let bytes = spot.iter().flatten().map(|block| block.bytes()).sum();
-        self.spots.keep(cell, (levels, cell), spot, bytes, MOST_BYTES.load(Ordering::Relaxed) / SPOTS);
+        self.spots.keep(key.1, key, spot, bytes, MOST_BYTES.load(Ordering::Relaxed) / SPOTS);
+    }
+
+    /// Whether a block is kept.
+    pub(super) fn has(&self, level: usize, number: u64) -> bool {
+        self.blocks.find(number, &(level, number)).is_some()
     }
 
     /// Bytes that are kept.
@@ -138,8 +142,10 @@ pub(crate) struct Cache {
     owner: u64,
     /// The block of each level that was used last, or that of a spot, with a number of its own.
     pub(super) current: [Option<(u64, Arc<Block>)>; LEVELS],
-    /// How many blocks the thread has built.
-    pub(super) built: u64,
+    /// The finest blocks around the spots that were made last, with the number of their levels.
+    pub(super) lately: [Option<(usize, u64)>; 8],
+    /// Whether the points of the batch may stand alone.
+    pub(super) is_spread: bool,
 }
 
 impl Cache {

@@ -1,10 +1,11 @@
 //! The ground, the water and the river at a point, level by level.
 
 use super::blend::{Jet, Level, Nearest, laid_over, level};
-use super::block::{Block, block_of};
-use super::cache::{Cache, LEVELS};
+use super::block::{BLOCK, Block, Square, block_of};
+use super::cache::{Cache, LEVELS, Spot};
 use super::channel::Cut;
-use super::grid::{FacePlace, Grid, RATIO};
+use super::grid::{Cell, FacePlace, Grid, RATIO};
+use super::net::NODES;
 use super::reach::FREEBOARD;
 use super::shore::{Lakeside, sunk};
 use super::{River, RiverPoint, Rivers};
@@ -21,6 +22,8 @@ const RELIEF_RATIO: f64 = 0.7;
 pub(super) const RELIEF: f64 = 1.0;
 /// The steepest hillslope: a tangent of about 35 degrees.
 const STEEPEST: f64 = 0.7;
+/// Steps from a point within which no land is, where the sea is open: farther than reaches near the point begin.
+const OPEN_SEA: f64 = 8.0;
 /// The relief of a level on the reaches of the level before, by that on its ridges.
 const LEAST_SHARE: f64 = 0.2;
 
@@ -56,60 +59,97 @@ impl Rivers {
     /// The block of a level, built if it is not there.
     pub(super) fn block(&self, level: usize, number: u64, cache: &mut Cache) -> Arc<Block> {
         self.blocks.get(level, number, || {
-            cache.built += 1;
-            match level {
-                0 => self.trunk_block(number),
-                _ => self.tributary_block(&self.grids[level], number, cache),
-            }
+            let grid = &self.grids[level];
+            let square = Square::of_block(grid, number);
+            let Some(before) = level.checked_sub(1) else { return self.trunk_block(&square) };
+            let parent = Cell { face: square.face, x: square.left / RATIO, y: square.top / RATIO };
+            let parent = self.block(before, block_of(&self.grids[before], parent), cache);
+            self.tributary_block(grid, &square, &parent, cache)
         })
     }
 
-    /// Makes the blocks of the first levels at a place current. `alone`: for a point that was asked for, which may
+    /// Makes the blocks of the first levels at a place current. `is_asked`: for a point that was asked for, which may
     /// stand alone, not for a node of a block that is built.
     #[inline(always)]
-    pub(super) fn find_blocks(&self, place: &FacePlace, levels: usize, alone: bool, cache: &mut Cache) {
+    pub(super) fn find_blocks(&self, at: (DVec3, &FacePlace), levels: usize, is_asked: bool, cache: &mut Cache) {
         let is_current =
-            |current: &Option<(u64, Arc<Block>)>| current.as_ref().is_some_and(|(_, block)| block.covers(place));
+            |current: &Option<(u64, Arc<Block>)>| current.as_ref().is_some_and(|(_, block)| block.covers(at.1));
         if !cache.current[..levels].iter().all(is_current) {
-            if alone {
-                self.find_spot(place, levels, cache);
+            if is_asked && cache.is_spread {
+                self.find_spot(at, levels, cache);
             } else {
-                self.find_whole(place, levels, cache);
+                self.find_whole(at.1, levels, cache);
             }
         }
     }
 
-    /// The same where a block is not current, by the spot of the place if there is one. Where a block had to be built,
-    /// it leaves a spot: others may need the memory of the block before the place is asked for again.
+    /// The same for a point that may stand alone: by the spot of its cell, which is made if the block around it was not
+    /// asked for lately. A second point in that block has it built as a whole.
     #[inline(never)]
-    fn find_spot(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
+    fn find_spot(&self, at: (DVec3, &FacePlace), levels: usize, cache: &mut Cache) {
         let Some(finest) = self.grids[..levels].last() else { return };
-        let cell = finest.cell_at(place);
-        let cell_number = finest.index(cell);
-        if let Some(spot) = self.blocks.spot(levels, cell_number) {
-            for (current, block) in cache.current.iter_mut().zip(spot) {
-                // Numbers of blocks are far smaller.
-                *current = block.map(|block| (cell_number | 1 << 63, block));
+        let cell = finest.cell_at(at.1);
+        let key = (levels, finest.index(cell));
+        let spot = self.blocks.spot(key).or_else(|| {
+            let block = (levels, block_of(finest, cell));
+            if cache.lately.contains(&Some(block)) || self.blocks.has(levels - 1, block.1) {
+                return None;
             }
-            return;
+            cache.lately.rotate_right(1);
+            cache.lately[0] = Some(block);
+            let spot = self.new_spot(cell, at.0, levels)?;
+            self.blocks.keep_spot(key, &spot);
+            Some(spot)
+        });
+        match spot {
+            // Numbers of blocks are far smaller.
+            Some(spot) => cache.current = spot.map(|block| Some((key.1 | 1 << 63, block?))),
+            None => self.find_whole(at.1, levels, cache),
         }
-        let built = cache.built;
-        self.find_whole(place, levels, cache);
-        if cache.built == built {
-            return;
+    }
+
+    /// Whether the sea covers all cells from which reaches near a direction could begin.
+    fn is_open_sea(&self, dir: DVec3) -> bool {
+        let far_rad = OPEN_SEA * self.trunks.grid.width_rad(dir);
+        self.trunks.sea_level_m.is_some_and(|sea_m| self.bounds.near(dir, far_rad).1 < sea_m)
+    }
+
+    /// The pieces near a cell, from blocks that hold no more than it needs. None near an edge of a face.
+    fn new_spot(&self, cell: Cell, dir: DVec3, levels: usize) -> Option<Spot> {
+        let mut squares = [Square::of_cell(cell); LEVELS];
+        if self.is_open_sea(dir) {
+            for level in (1..levels).rev() {
+                squares[level - 1] = squares[level].parents(&self.grids[level], 0)?;
+            }
+            return Some(std::array::from_fn(|level| {
+                (level < levels).then(|| Arc::new(Block::new(&self.grids[level], &squares[level], &[])))
+            }));
+        }
+        for level in (1..levels).rev() {
+            squares[level - 1] = squares[level].parents(&self.grids[level], NODES)?;
+        }
+        let mut cache = Cache::default();
+        let mut parent: Option<Arc<Block>> = None;
+        for (level, (square, grid)) in squares.iter().zip(&self.grids).enumerate().take(levels) {
+            let block = Arc::new(match &parent {
+                None => self.trunk_block(square),
+                Some(parent) => self.tributary_block(grid, square, parent, &mut cache),
+            });
+            cache.current[level] = Some((u64::MAX, block.clone()));
+            parent = Some(block);
         }
         let mut spot = [const { None }; LEVELS];
         for (level, (slot, current)) in spot.iter_mut().zip(&cache.current).enumerate().take(levels) {
-            let Some((_, block)) = current else { return };
+            let (_, block) = current.as_ref()?;
             // A cell of the next level is a bucket of this one.
-            *slot = Some(Arc::new(if level + 1 == levels {
-                block.cropped([cell.x * RATIO, cell.y * RATIO], RATIO)
+            *slot = Some(if level + 1 == levels {
+                block.clone()
             } else {
                 let per_bucket = RATIO.pow((levels - 2 - level) as u32);
-                block.cropped([cell.x / per_bucket, cell.y / per_bucket], 1)
-            }));
+                Arc::new(block.cropped([cell.x / per_bucket, cell.y / per_bucket], 1))
+            });
         }
-        self.blocks.keep_spot(levels, cell_number, &spot);
+        Some(spot)
     }
 
     /// The same with whole blocks, which are built if they are not there.
@@ -142,7 +182,7 @@ impl Rivers {
         mut cut: Option<(&mut Cut, &mut [Jet; LEVELS + 1])>,
     ) -> Ground {
         let face_place = FacePlace::new(dir);
-        self.find_blocks(&face_place, levels, cut.is_some(), cache);
+        self.find_blocks((dir, &face_place), levels, cut.is_some(), cache);
         let tangential = |(value, gradient): (f64, DVec3)| Jet { value, gradient: gradient - dir * gradient.dot(dir) };
         let [heights, reliefs] = &self.rasters;
         let place = heights.place(dir);
@@ -233,9 +273,16 @@ impl Rivers {
         self.grids.iter().take_while(|grid| 2.0 / grid.side as f64 > points * spacing_rad).count()
     }
 
+    /// Whether points are so few or so far apart that blocks would be built for one point each.
+    fn is_spread(&self, dirs: &[DVec3], levels: usize) -> bool {
+        let (Some(grid), [first, second, ..]) = (self.grids[..levels].last(), dirs) else { return true };
+        first.distance_squared(*second) > (BLOCK as f64 * grid.width_rad(*first)).powi(2)
+    }
+
     /// Evaluates points near each other, in order: one answer for each direction.
     pub(crate) fn evaluate(&self, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>) {
         cache.belongs_to(self.number);
+        cache.is_spread = self.is_spread(dirs, levels);
         out.clear();
         out.reserve(dirs.len());
         points_simd(Simd::detect(), self, dirs, levels, cache, out);

@@ -9,16 +9,17 @@ use super::cache::Cache;
 use super::coarser::Coarser;
 use super::grid::{BESIDE, Cell, Grid, RATIO};
 use super::reach::Line;
+use super::block::Square;
 use super::window::Window;
 use crate::world::noise::mix;
 use glam::DVec3;
 use std::ops::Range;
 
-/// Rings of cells around a block whose reaches may touch it.
+/// Rings of cells around a square whose reaches may touch it.
 pub(super) const REACHES: usize = 2;
 /// Rings whose cells have a receiver, and whose nodes are needed to find those.
 const DRAINED: usize = REACHES + 2;
-const NODES: usize = DRAINED + 1;
+pub(super) const NODES: usize = DRAINED + 1;
 /// Nodes nearer to a coarser reach than this share of a cell move onto it.
 const ANCHOR: f64 = 0.55;
 
@@ -26,7 +27,7 @@ const ANCHOR: f64 = 0.55;
 const NONE: u32 = u32::MAX;
 
 pub(super) struct Node {
-    /// The ring of the cell: 0 in the block.
+    /// The ring of the cell: 0 in the square.
     pub(super) ring: u8,
     /// Whether water flows on from here: not in standing water, nor on a coarser reach.
     pub(super) is_free: bool,
@@ -45,14 +46,14 @@ pub(super) struct Node {
     lines: Range<u32>,
 }
 
-/// The nodes of a block and of the rings around it.
+/// The nodes of a square and of the rings around it.
 pub(super) struct Net {
     pub(super) nodes: Vec<Node>,
 }
 
 impl Net {
-    pub(super) fn new(rivers: &Rivers, grid: &Grid, block: u64, cache: &mut Cache) -> Self {
-        let Window { cells, around } = Window::new(grid, block, NODES);
+    pub(super) fn new(rivers: &Rivers, grid: &Grid, square: &Square, cache: &mut Cache) -> Self {
+        let Window { cells, around } = Window::new(grid, square, NODES);
         let mut coarser = Coarser::default();
         let mut nodes: Vec<Node> =
             cells.into_iter().map(|(cell, ring)| rivers.child_node(grid, cell, ring, &mut coarser, cache)).collect();

@@ -170,13 +170,15 @@ impl Reach {
             [bank_rad, depth_m(discharge), discharge, riverside_m(discharge) / radius_m, hold(discharge, radius_m)]
         };
         let curve = Curve { ends: [self.from, self.to], tangents: self.end_tangents() };
+        let (mut end, mut channel_end) = (curve.at(0, count), has_river.then(|| channel(0)));
         for k in 0..count {
-            let (start, end) = (curve.at(k, count), curve.at(k + 1, count));
+            let (start, channel_start) = (end, channel_end);
+            (end, channel_end) = (curve.at(k + 1, count), has_river.then(|| channel(k + 1)));
             let flat_rad = 0.5 * (ends(k, self.flat_rad) + ends(k + 1, self.flat_rad)) / self.influence_rad;
             let (bank_m, next_m) = (ends(k, self.bank_m), ends(k + 1, self.bank_m));
-            let channel = has_river.then(|| {
-                let [bank_rad, depth_m, discharge, riverside_rad, hold] = channel(k);
-                let [next_rad, next_depth_m, next, next_riverside_rad, next_hold] = channel(k + 1);
+            let channel = channel_start.zip(channel_end).map(|(start, end)| {
+                let [bank_rad, depth_m, discharge, riverside_rad, hold] = start;
+                let [next_rad, next_depth_m, next, next_riverside_rad, next_hold] = end;
                 Channel {
                     bank_rad,
                     bank_change_rad: next_rad - bank_rad,

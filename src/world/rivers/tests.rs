@@ -41,9 +41,9 @@ fn land(count: usize) -> Vec<DVec3> {
     spread(count * 8).filter(|dir| at(*dir, 1, &mut cache).height_m > 20.0).take(count).collect()
 }
 
-/// The block of a level at a direction.
+/// The whole block of a level at a direction: that of points close together.
 fn block(dir: DVec3, level: usize, cache: &mut Cache) -> Arc<Block> {
-    at(dir, level + 1, cache);
+    rivers().evaluate(&[dir; 2], level + 1, cache, &mut Vec::new());
     cache.current[level].as_ref().map(|(_, block)| block.clone()).unwrap()
 }
 
@@ -155,6 +155,22 @@ fn a_batch_equals_its_points_in_any_order() {
     for (dir, point) in dirs.iter().zip(&together).step_by(9) {
         assert_eq!(at(*dir, LEVELS, &mut Cache::default()), *point);
     }
+}
+
+#[test]
+fn a_point_that_stands_alone_has_the_bits_of_its_block() {
+    let alone = Rivers::new(drainage().clone(), Some(synthetic::SEA_M), synthetic::RADIUS_KM);
+    let (mut answers, mut from_spots) = ([Vec::new(), Vec::new()], 0);
+    for (k, dir) in land(300).into_iter().chain(spread(300)).enumerate() {
+        let levels = 1 + k % LEVELS;
+        let mut cache = Cache::default();
+        alone.evaluate(&[dir], levels, &mut cache, &mut answers[0]);
+        from_spots += usize::from(cache.lately[0].is_some());
+        rivers().evaluate(&[dir; 2], levels, &mut Cache::default(), &mut answers[1]);
+        let expected = answers[1][0];
+        assert_eq!(answers[0][0], expected, "{levels} levels at {dir}");
+    }
+    assert!(from_spots > 400, "{from_spots}");
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Blocks of each level: the reaches of the solved drainage, and tributaries that the solver did not resolve.
 
 use super::Rivers;
-use super::block::{Block, Touch, block_of, cells_of};
+use super::block::{Block, Square, Touch};
 use super::cache::Cache;
-use super::grid::{Cell, Grid, RATIO};
+use super::grid::{Grid, RATIO};
 use super::net::{Net, REACHES};
 use super::reach::{INFLUENCE, Piece, Reach, width_m};
 use super::winding::{REFINED, refine};
@@ -18,43 +18,29 @@ pub(super) const RISE: f64 = 0.5;
 
 impl Rivers {
     /// The block of the coarsest level: reaches of the solved drainage.
-    pub(super) fn trunk_block(&self, block: u64) -> Block {
+    pub(super) fn trunk_block(&self, square: &Square) -> Block {
         let grid = &self.trunks.grid;
-        let Window { mut cells, .. } = Window::new(grid, block, REACHES);
+        let Window { mut cells, .. } = Window::new(grid, square, REACHES);
         cells.sort_by_key(|(cell, _)| grid.index(*cell));
         let mut pieces = Vec::with_capacity(cells.len() * PIECES);
         for reach in cells.into_iter().filter_map(|(cell, _)| self.trunks.reach(cell)) {
             reach.cut(PIECES, self.trunks.radius_m, &mut pieces);
         }
-        Block::new(grid, block, &pieces)
+        Block::new(grid, square, &pieces)
     }
 
-    /// A block of a finer level: coarser reaches, then tributaries.
-    pub(super) fn tributary_block(&self, grid: &Grid, block: u64, cache: &mut Cache) -> Block {
-        let net = Net::new(self, grid, block, cache);
+    /// A block of a finer level: the reaches of the level before around it, then tributaries.
+    pub(super) fn tributary_block(&self, grid: &Grid, square: &Square, parent: &Block, cache: &mut Cache) -> Block {
+        let net = Net::new(self, grid, square, cache);
         let near = (0..net.nodes.len()).filter(|&at| usize::from(net.nodes[at].ring) <= REACHES);
         let mut reaches: Vec<(u64, Reach)> =
             near.filter_map(|at| Some((net.nodes[at].index, self.tributary(grid, &net, at)?))).collect();
         reaches.sort_by_key(|(index, _)| *index);
-        let mut pieces = self.coarser(grid, block, cache);
+        let mut pieces = coarser(grid, square, parent);
         for (_, reach) in &reaches {
             reach.cut(PIECES, self.trunks.radius_m, &mut pieces);
         }
-        Block::new(grid, block, &pieces)
-    }
-
-    /// The pieces of the coarser block around, with the lesser influence that they have on this level.
-    fn coarser(&self, grid: &Grid, number: u64, cache: &mut Cache) -> Vec<Piece> {
-        let parent = &self.grids[grid.level - 1];
-        let Some(cell) = cells_of(grid, number).next() else { return Vec::new() };
-        let parent_cell = Cell { face: cell.face, x: cell.x / RATIO, y: cell.y / RATIO };
-        let block = self.block(parent.level, block_of(parent, parent_cell), cache);
-        let near = Touch::new(grid, number);
-        let mut pieces = Vec::with_capacity(block.lines.len() * REFINED / 4);
-        for piece in block.pieces().filter(|piece| near.reaches(piece, RATIO as f64)) {
-            refine(&piece, &mut |piece| pieces.push(piece));
-        }
-        pieces
+        Block::new(grid, square, &pieces)
     }
 
     fn tributary(&self, grid: &Grid, net: &Net, at: usize) -> Option<Reach> {
@@ -83,4 +69,14 @@ impl Rivers {
             influence_rad: INFLUENCE * grid.width_rad(node.dir),
         })
     }
+}
+
+/// The pieces of the level before around a square, with the lesser influence that they have on this level.
+fn coarser(grid: &Grid, square: &Square, parent: &Block) -> Vec<Piece> {
+    let near = Touch::new(grid, square);
+    let mut pieces = Vec::with_capacity(parent.lines.len() * REFINED / 4);
+    for piece in parent.pieces().filter(|piece| near.reaches(piece, RATIO as f64)) {
+        refine(&piece, &mut |piece| pieces.push(piece));
+    }
+    pieces
 }
