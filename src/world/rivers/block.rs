@@ -219,7 +219,13 @@ impl Touch {
             p / p.dot(out) - out
         };
         let corner = [square.left * RATIO, square.top * RATIO];
-        Self { face, side: grid.side * RATIO, corner, buckets: square.side * RATIO, axes: [out, step(2.0, 1.0), step(1.0, 2.0)] }
+        Self {
+            face,
+            side: grid.side * RATIO,
+            corner,
+            buckets: square.side * RATIO,
+            axes: [out, step(2.0, 1.0), step(1.0, 2.0)],
+        }
     }
 
     /// Whether a piece touches the block with its influence divided by `finer`.

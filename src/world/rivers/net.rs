@@ -5,11 +5,11 @@
 //! function of the cells around, so that blocks agree about every reach they share.
 
 use super::Rivers;
+use super::block::Square;
 use super::cache::Cache;
 use super::coarser::Coarser;
 use super::grid::{BESIDE, Cell, Grid, RATIO};
 use super::reach::Line;
-use super::block::Square;
 use super::window::Window;
 use crate::world::noise::mix;
 use glam::DVec3;
