@@ -22,6 +22,7 @@ use crate::clouds::{CloudCover, CloudField};
 use crate::planet::Key;
 use crate::planet::file::write_atomically_with;
 use crate::planet::open::open_file;
+use crate::planet::output::is_unfinished;
 use crate::sphere::curve;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
@@ -116,7 +117,7 @@ impl Strips {
     }
 
     pub(super) fn path(&self, number: u32) -> PathBuf {
-        self.folder.join(format!("{number:05}.strip"))
+        self.folder.join(format!("{number:05}.{ENDING}"))
     }
 
     /// Whether a strip is there whole.
@@ -311,10 +312,27 @@ fn damaged() -> io::Error {
     io::Error::other("is damaged; the same command makes it anew")
 }
 
-/// Removes the strips of a bake that is done.
+/// Ending of the file of a strip.
+const ENDING: &str = "strip";
+
+/// Removes the strips of a bake that is done, and their folder if nothing else is in it.
 pub(super) fn remove(folder: &Path) -> Result<(), BakeError> {
-    match std::fs::remove_dir_all(folder) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+    let is_own = |path: &Path| {
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let is_number = |stem: &str| !stem.is_empty() && stem.bytes().all(|b| b.is_ascii_digit());
+        is_unfinished(name) || name.strip_suffix(ENDING).and_then(|name| name.strip_suffix('.')).is_some_and(is_number)
+    };
+    let removed = std::fs::read_dir(folder).and_then(|entries| {
+        for path in entries.map(|entry| entry.map(|entry| entry.path())) {
+            let path = path?;
+            if is_own(&path) {
+                std::fs::remove_file(path)?;
+            }
+        }
+        std::fs::remove_dir(folder)
+    });
+    match removed {
+        Err(error) if !matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::DirectoryNotEmpty) => {
             Err(BakeError::file(folder, format!("the maps are complete, but their strips cannot be removed: {error}")))
         }
         _ => Ok(()),
@@ -330,6 +348,25 @@ mod tests {
         let maps = vec![Map::Height, Map::Normal, Map::Biome];
         let grid = Grid::new(&projection, size, 1000.0);
         Strips::new(grid, maps, Key::of(&size), PathBuf::from("strips"), STRIP_PIXELS)
+    }
+
+    #[test]
+    fn only_strips_are_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let strips = folder.path().join("strips");
+        std::fs::create_dir(&strips).unwrap();
+        for name in ["00000.strip", "12345.strip", "mine.strip", "notes.txt"] {
+            std::fs::write(strips.join(name), name).unwrap();
+        }
+        remove(&strips).unwrap();
+        let left = |name: &str| strips.join(name).exists();
+        assert!(!left("00000.strip") && !left("12345.strip") && left("mine.strip") && left("notes.txt"));
+        for name in ["mine.strip", "notes.txt"] {
+            std::fs::remove_file(strips.join(name)).unwrap();
+        }
+        remove(&strips).unwrap();
+        assert!(!strips.exists());
+        remove(&strips).unwrap();
     }
 
     #[test]

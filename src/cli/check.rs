@@ -1,6 +1,6 @@
 //! `tellus check`: validates presets and system files.
 
-use super::{Failure, print, tell};
+use super::{Failure, print, tell, tell_note};
 use crate::planet::file::read_text;
 use crate::planet::{LoadError, Planet};
 use crate::system::System;
@@ -36,5 +36,5 @@ fn checked(file: &Path) -> Result<(), LoadError> {
         let system = System::from_text(&file.display().to_string(), &text)?;
         return system.check_places(file, &system.load_planets(file)?);
     }
-    Planet::load(file).map(|_| ())
+    Planet::load_noted(file).map(|(_, note)| tell_note(file, note))
 }

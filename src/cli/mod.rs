@@ -204,7 +204,16 @@ fn edit(_: Option<PathBuf>, _: &Logging) -> Result<(), Failure> {
 }
 
 fn load(path: &Path) -> Result<Planet, Failure> {
-    Planet::load(path).map_err(|error| Failure::Message(error.to_string()))
+    let (planet, note) = Planet::load_noted(path).map_err(|error| Failure::Message(error.to_string()))?;
+    tell_note(path, note);
+    Ok(planet)
+}
+
+/// Says the note of a preset, if there is one.
+fn tell_note(path: &Path, note: Option<String>) {
+    if let Some(note) = note {
+        tell(&format!("note: {}: {note}", path.display()));
+    }
 }
 
 /// A planet, and the files that no output may replace.

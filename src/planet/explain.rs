@@ -97,7 +97,7 @@ fn problem<R: Root>(text: &str, path: String, error: &SpannedError) -> Problem {
             (at_value, format!("{found} {are} too few; use {}", numbers::<R>(&path)))
         }
         Error::ExpectedStructLikeEnd if place.is_some_and(|p| parameter::<R>(&path).is_some() && p.value < stop) => {
-            (stop, format!("too many numbers; use {}", numbers::<R>(&path)))
+            (stop, format!("too many numbers; use {}; decimals have a point: 0.5", numbers::<R>(&path)))
         }
         Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => {
             (stop, "a closing `)` is missing; add it here".to_owned())

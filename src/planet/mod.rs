@@ -5,6 +5,7 @@
 //!   table): the data of a preset; `kinds` writes enums whose variants carry parameters
 //! - `airs`, `seas`, `skies`, `tables`: values to start from; `starting` is their type
 //! - `star_color`, `day`: the colour of a star by temperature; its position by hour and season
+//! - `ground_version`: the version of all that shapes the ground, and notes about presets of another
 //! - [`diff`]: which parameters two planets differ in
 //! - [`key`]: content keys
 //! - [`validate`]: ranges, references between names, the shape of the biome table
@@ -34,6 +35,7 @@ pub mod edits;
 pub(crate) mod explain;
 pub mod file;
 mod giant;
+mod ground_version;
 mod idle;
 pub mod key;
 pub(crate) mod kinds;
@@ -74,6 +76,7 @@ pub use biome::{Biome, Detail, Steep};
 pub use edits::{EditPoint, EditPoints, GroundEdit, GroundEdits, Limit, Tool};
 pub use file::{LoadError, SaveError};
 pub use giant::{Giant, STARTING_GIANTS};
+pub use ground_version::{GROUND_VERSION, ground_note};
 pub use key::Key;
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, PaintedMask, SlopeMask};
@@ -101,14 +104,6 @@ use serde::{Deserialize, Serialize};
 /// The version of the preset format that this crate writes. It pins the layers too: a preset of an old version is
 /// migrated when it is read, and its layers keep their exact heights.
 pub const VERSION: u32 = 3;
-
-/// The version of all that shapes the ground: layers, the solvers of world maps, and rivers between their cells. Equal
-/// presets have equal heights, to the bit, wherever this version is the same; files that were made of a planet tell it.
-/// It grows with every change of a height, also of planets with a structure alone; tests of solved worlds say when.
-///
-/// - 5: lakes have a rim where lower ground lies beside them; layers make islands in shallow lakes
-/// - 4: layers over a structure end at its rivers and lakes; wide rivers have their bed on their whole width
-pub const GROUND_VERSION: u32 = 5;
 
 /// Most layers a planet may have.
 pub const MAX_LAYERS: usize = 64;

@@ -217,7 +217,7 @@ fn sweep(folder: &Path) {
 }
 
 /// Whether a name is one that this program gives to unfinished files.
-fn is_unfinished(name: &str) -> bool {
+pub(crate) fn is_unfinished(name: &str) -> bool {
     let middle = name.strip_prefix(UNFINISHED).and_then(|rest| rest.strip_suffix(UNFINISHED_END));
     middle.is_some_and(|middle| middle.len() == RANDOM && middle.bytes().all(|c| c.is_ascii_alphanumeric()))
 }

@@ -156,7 +156,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         ),
         (
             "(version: 3, star: (color: (1, 1, 1, 1)))",
-            "f.ron:1:38: star.color: too many numbers; use three, for red, green and blue",
+            "f.ron:1:38: star.color: too many numbers; use three, for red, green and blue; decimals have a point: 0.5",
         ),
         (
             "(version: 3, star: (color: (1, x, 1)))",
@@ -237,7 +237,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         ),
         (
             "(version: 3, layers: [(curve: [(0, 0, 1), (1, 5)])])",
-            "f.ron:1:39: layers[0].curve[0]: too many numbers; use two for each point: `(from, to)`",
+            "f.ron:1:39: layers[0].curve[0]: too many numbers; use two for each point: `(from, to)`; decimals have a point: 0.5",
         ),
         (
             "(version: 3, layers: [(curve: [(0)])])",

@@ -139,7 +139,13 @@ pub fn begin_with(state: &mut State, ctx: &egui::Context, path: &Path) {
 /// Shows a document that has been read. If it could not be read, a message says why, and the document stays.
 fn show(state: &mut State, path: &Path, document: Result<Document, LoadError>) {
     match document {
-        Ok(document) => state.replace_document(document),
+        Ok(document) => {
+            let note = document.note();
+            state.replace_document(document);
+            if let Some(note) = note {
+                state.report("The ground is not as it was saved", vec![note]);
+            }
+        }
         Err(error) => state.report("The planet could not be opened", problems(path, &error)),
     }
 }

@@ -8,7 +8,7 @@ use super::history::{History, Home};
 use crate::editor::files::file_names::file_name_of;
 use crate::planet::param::ParamPath;
 use crate::planet::picture::{Picture, PictureKey, folder_of};
-use crate::planet::{Bookmark, Planet, validate};
+use crate::planet::{Bookmark, Planet, ground_note, validate};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -41,6 +41,11 @@ impl Document {
         let mut document = Self::new(planet, Some(path));
         document.home.bytes = Some(text.into_bytes());
         document
+    }
+
+    /// What to say of the file when it is opened: see [`ground_note`].
+    pub fn note(&self) -> Option<String> {
+        ground_note(std::str::from_utf8(self.home.bytes.as_deref()?).ok()?)
     }
 
     /// A document with unsaved work, of a file if it has one: to close it asks.

@@ -1,9 +1,9 @@
-//! Presets of version 3, the current one: the version, then the fields of [`Planet`].
+//! Presets of version 3, the current one: the versions, then the fields of [`Planet`].
 
 use crate::planet::param::Curve;
 use crate::planet::{
-    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Giant, GroundEdits, Layer, Planet, Precision, Rings, Star,
-    Structure, VERSION, Version, Water,
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, GROUND_VERSION, Giant, GroundEdits, Layer, Planet, Precision,
+    Rings, Star, Structure, VERSION, Version, Water,
 };
 use serde::{Deserialize, Serialize};
 
@@ -15,12 +15,16 @@ macro_rules! file {
         #[serde(rename = "Planet", default, deny_unknown_fields)]
         pub(crate) struct File {
             pub(super) version: Version,
+            /// [`GROUND_VERSION`] when the file was saved, of a planet with a structure.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub(super) ground_version: Option<u32>,
             $($(#[$attr])* pub(super) $field: $type,)+
         }
 
         impl From<Planet> for File {
             fn from(planet: Planet) -> Self {
-                Self { version: Version(VERSION), $($field: planet.$field,)+ }
+                let ground_version = planet.structure.is_some().then_some(GROUND_VERSION);
+                Self { version: Version(VERSION), ground_version, $($field: planet.$field,)+ }
             }
         }
 
