@@ -1,6 +1,6 @@
 //! The version of all that shapes the ground, and what a preset says of it.
 
-use super::locate;
+use super::{locate, text::SAVED};
 
 /// The version of all that shapes the ground: layers, the solvers of world maps, and rivers between their cells. Equal
 /// presets have equal heights, to the bit, wherever this version is the same; files that were made of a planet tell it,
@@ -24,10 +24,12 @@ pub fn ground_note(text: &str) -> Option<String> {
     value("structure").filter(|structure| !structure.starts_with("None"))?;
     let now = GROUND_VERSION;
     let Some(found) = value(FIELD) else {
-        return Some(format!(
-            "the preset does not say for which ground it was made; its rivers and lakes may be other ones than when it \
-             was saved. Save it again, or write `{FIELD}: {now}` below its version"
-        ));
+        return was_saved(text).then(|| {
+            format!(
+                "an earlier Tellus saved this planet; its rivers and lakes may be other ones now. Save it to keep them \
+                 (ground version {now})"
+            )
+        });
     };
     let digits = found.split(|c: char| !c.is_ascii_digit()).next()?;
     match digits.parse::<u32>().ok()? {
@@ -48,6 +50,11 @@ pub fn ground_note(text: &str) -> Option<String> {
     }
 }
 
+/// Whether a program saved the text, rather than a hand or a script that left fields out.
+fn was_saved(text: &str) -> bool {
+    text.trim_start_matches('\u{feff}').trim_start().starts_with(SAVED)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,7 +72,8 @@ mod tests {
         assert!(note("#4,").contains("lakes have a rim") && !note("#4,").contains("wide rivers"), "{}", note("#4,"));
         assert!(note("#3,").contains("wide rivers"));
         assert!(note("#99,").contains("update the program"));
-        assert!(note("").contains("does not say"));
+        assert!(note("").contains("an earlier Tellus saved"));
+        assert_eq!(ground_note(&format!("// By hand.\n{}", with(""))), None);
         // All of them can be read, and are saved with the version of today.
         for version in ["#4,", "#99,", ""] {
             assert_eq!(Planet::from_text("a.ron", &with(version)).unwrap().to_text(), saved);

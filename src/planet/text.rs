@@ -40,6 +40,9 @@ pub(crate) fn write<R: Root + Into<R::File>>(root: &R) -> String {
     text
 }
 
+/// The first words of each planet that is saved.
+pub(super) const SAVED: &str = "// A planet for Tellus";
+
 fn header<R: Root>() -> String {
     format!(
         "// A {} for Tellus, format version {}. Fields that are left out take their default values.\n\

@@ -1,5 +1,6 @@
 //! How far layers over the structure stand from its rivers and lakes, as a field: 0 in the water of rivers, little in
-//! lakes, 1 where none is near. It masks every layer over the structure, so that none buries a river. It is no kind of layer.
+//! lakes, 1 where none is near. It masks every layer over the structure, so that none buries a river. It is no kind of
+//! layer.
 
 use super::structure::{Solved, layer_shares};
 use super::{Chunk, Evaluate, Scratch};
