@@ -73,7 +73,7 @@ impl Playing {
 
     fn draw(&mut self) -> Result<(), Failure> {
         let camera_view = self.game.view([self.config.width, self.config.height], Quality::Low);
-        self.builder.request(&self.game.planet, &camera_view);
+        self.builder.request(&self.game.planet, &camera_view)?;
         let Some(tiles) = self.builder.surface() else { return Ok(()) };
         let wgpu::CurrentSurfaceTexture::Success(frame) = self.surface.get_current_texture() else {
             self.surface.configure(&self.device, &self.config);

@@ -99,7 +99,7 @@ impl CameraArgs {
     pub(super) fn shot(&self, terrain: &Arc<Terrain>, camera: Camera, time_secs: f64) -> Shot {
         Shot {
             terrain: terrain.clone(),
-            revision: terrain.revision(),
+            revision: terrain.revision().clone(),
             view: View { camera, size_px: self.size, quality: self.quality },
             time_secs,
             sun: None,

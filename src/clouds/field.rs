@@ -4,12 +4,12 @@ use super::cover::{CloudCover, Targets, cover, offset};
 use super::ranks::Ranks;
 use super::swirl::{Noises, Swirls};
 use super::systems::{Climate, Effect, System, alive};
-use crate::planet::{Clouds, Planet, Rotation};
+use crate::planet::{Clouds, Rotation};
 use crate::sphere::spread;
-use crate::terrain::Terrain;
 use crate::terrain::edits::{Edits, Near};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
+use crate::terrain::{Revision, Terrain};
 use crate::world::EARTH_KM;
 use crate::world::weather::Weather;
 use glam::DVec3;
@@ -71,10 +71,11 @@ impl CloudField {
     /// The clouds of a terrain's planet, with the weather of its structure if that is solved. Without clouds, a field
     /// whose cover is 0.
     pub fn new(terrain: &Terrain) -> Self {
-        Self::with(terrain.planet(), terrain.weather().cloned())
+        Self::with(terrain.revision(), terrain.weather().cloned())
     }
 
-    pub(crate) fn with(planet: &Planet, weather: Option<Arc<Weather>>) -> Self {
+    pub(crate) fn with(revision: &Revision, weather: Option<Arc<Weather>>) -> Self {
+        let planet = revision.planet();
         let clouds = planet.clouds.clone().unwrap_or_default();
         let seed = clouds.seed ^ planet.seed.rotate_left(16);
         let cells = (planet.radius_km / clouds.scale_km).min(FINEST);
@@ -99,7 +100,7 @@ impl CloudField {
             drift_rad_s: clouds.wind_km_h / 3600.0 / planet.radius_km,
         };
         field.set_coverage(planet.clouds.as_ref().map_or([0.0; LAYERS], coverages));
-        field.set_paint(planet);
+        field.set_paint(revision);
         let mut samples: [Vec<f32>; LAYERS] = std::array::from_fn(|_| Vec::with_capacity(SAMPLES));
         let systems = alive(&field.climate, 0.0);
         let dirs: Vec<DVec3> = spread(SAMPLES).collect();
@@ -192,8 +193,8 @@ impl CloudField {
     }
 
     /// The painted clouds of a planet in the place of those before. They change nothing beyond the strokes.
-    pub(crate) fn set_paint(&mut self, planet: &Planet) {
-        self.paint = Edits::new(planet).filter(|edits| edits.cloud_key().is_some());
+    pub(crate) fn set_paint(&mut self, revision: &Revision) {
+        self.paint = revision.edits().filter(|edits| edits.cloud_key().is_some()).cloned();
     }
 
     /// By how much paint changes the log-odds of the target cover at directions: calls `each` with the number of a

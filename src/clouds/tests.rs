@@ -3,7 +3,12 @@ use crate::planet::edits::{CloudPaint, EditPoints};
 use crate::planet::{Clouds, EditPoint, GroundEdit, Planet, Tool, shipped};
 use crate::simd::Simd;
 use crate::sphere::{LatLon, spread};
+use crate::terrain::Revision;
 use glam::DVec3;
+
+fn field_of(planet: &Planet) -> CloudField {
+    CloudField::with(&Revision::try_new(planet.clone().into()).unwrap(), None)
+}
 
 fn planet(clouds: Clouds) -> Planet {
     let planet = Planet { clouds: Some(clouds), ..shipped::layered() };
@@ -32,7 +37,7 @@ fn mean_cover(field: &CloudField, time_secs: f64, within: impl Fn(DVec3) -> bool
 #[test]
 fn the_sky_is_as_covered_as_asked() {
     for (coverage, storms) in [(0.15, 1.0), (0.4, 0.6), (0.67, 0.0), (0.9, 1.0)] {
-        let field = CloudField::with(&planet(Clouds { coverage, storms, ..Clouds::default() }), None);
+        let field = field_of(&planet(Clouds { coverage, storms, ..Clouds::default() }));
         for days in [0.0, 40.3] {
             let mean = mean_cover(&field, days * 86_400.0, |_| true);
             assert!((mean - coverage).abs() < 0.05, "{coverage} {storms} day {days}: {mean}");
@@ -43,7 +48,7 @@ fn the_sky_is_as_covered_as_asked() {
 #[test]
 fn nothing_and_everything_are_covered_exactly() {
     for coverage in [0.0, 1.0] {
-        let field = CloudField::with(&planet(Clouds { coverage, veil: coverage, ..Clouds::default() }), None);
+        let field = field_of(&planet(Clouds { coverage, veil: coverage, ..Clouds::default() }));
         for dir in spread(60) {
             let cover = field.cover(dir, 7000.0);
             assert!((cover.low - coverage).abs() < 1e-3 && (cover.veil - coverage).abs() < 1e-3, "{cover:?}");
@@ -56,7 +61,7 @@ fn nothing_and_everything_are_covered_exactly() {
 fn belts_are_where_the_climate_has_them() {
     let mut planet = planet(Clouds { coverage: 0.5, ..Clouds::default() });
     planet.climate.belts = 1.0;
-    let field = CloudField::with(&planet, None);
+    let field = field_of(&planet);
     let belt = |low_deg: f64, high_deg: f64| {
         let sines = [low_deg, high_deg].map(|deg| deg.to_radians().sin());
         let times = (0..4).map(|i| f64::from(i) * 9.0 * 86_400.0);
@@ -71,7 +76,7 @@ fn belts_are_where_the_climate_has_them() {
 fn each_zone_is_as_covered_as_its_climate_asks() {
     let mut planet = planet(Clouds { coverage: 0.45, storms: 0.0, wind_km_h: 0.0, ..Clouds::default() });
     planet.climate.belts = 1.0;
-    let field = CloudField::with(&planet, None);
+    let field = field_of(&planet);
     let bounds = [-90.0, -50.0, -20.0, 20.0, 50.0, 90.0_f64].map(|deg| deg.to_radians().sin());
     for zone in bounds.windows(2) {
         let within = |dir: DVec3| (zone[0]..zone[1]).contains(&dir.z);
@@ -92,7 +97,7 @@ fn each_zone_is_as_covered_as_its_climate_asks() {
 fn clouds_are_of_all_sizes() {
     const SIDE: usize = 384;
     const LEAST: usize = 28;
-    let field = CloudField::with(&planet(Clouds { coverage: 0.35, wind_km_h: 0.0, ..Clouds::default() }), None);
+    let field = field_of(&planet(Clouds { coverage: 0.35, wind_km_h: 0.0, ..Clouds::default() }));
     let mut perimeters: Vec<f64> = Vec::new();
     let times_secs = [0.0, 4e6, 9e6, 12e6, 15e6, 18e6];
     for (face, time_secs) in
@@ -135,7 +140,7 @@ fn clouds_are_of_all_sizes() {
 /// Clouds change, but from one minute to the next no cover jumps; a keyframe is no seam in time.
 #[test]
 fn clouds_change_without_jumps() {
-    let field = CloudField::with(&planet(Clouds { storms: 1.0, ..Clouds::default() }), None);
+    let field = field_of(&planet(Clouds { storms: 1.0, ..Clouds::default() }));
     let mut changed = 0.0_f64;
     for dir in spread(80) {
         let at = |minutes: f64| field.cover(dir, minutes * 60.0).low;
@@ -149,7 +154,7 @@ fn clouds_change_without_jumps() {
 
 #[test]
 fn clouds_are_the_same_on_all_instruction_sets() {
-    let field = CloudField::with(&planet(Clouds::default()), None);
+    let field = field_of(&planet(Clouds::default()));
     let covers =
         |field: &CloudField| -> Vec<u64> { spread(40).map(|dir| field.cover(dir, 1e5).low.to_bits()).collect() };
     let expected = covers(&field);
@@ -170,7 +175,7 @@ fn maps_are_the_field() {
     let crowded = Clouds { storms: 1.0, cyclones: 96, scale_km: 5000.0, ..calm.clone() };
     let planets = [calm, crowded].map(planet);
     for planet in [painted(&planets[0], 0.2), painted(&planets[1], -0.2)].into_iter().chain(planets) {
-        let field = CloudField::with(&planet, None);
+        let field = field_of(&planet);
         let frame = keyframe(&field, 3, SIDE);
         let ground = ground_map(&planet, &field, SIDE);
         for i in (0..6 * SIDE * SIDE).step_by(13) {
@@ -196,9 +201,9 @@ fn painted_clouds_stay_over_their_place_and_leave_the_rest_as_it_is() {
     let (inside, outside): (Vec<DVec3>, Vec<DVec3>) =
         spread(4000).filter(|dir| !(1300.0..2001.0).contains(&away_km(*dir))).partition(|dir| away_km(*dir) < 1300.0);
     assert!(inside.len() > 30 && outside.len() > 3000);
-    let plain = CloudField::with(&planet, None);
+    let plain = field_of(&planet);
     for (amount, low, high) in [(1.0, 0.97, 1.0), (-1.0, 0.0, 0.03)] {
-        let field = CloudField::with(&painted(&planet, amount), None);
+        let field = field_of(&painted(&planet, amount));
         for time_secs in [0.0, 86_400.0 * 3.3] {
             let covers = field.covers(&inside, time_secs);
             let mean = |of: fn(&CloudCover) -> f64| covers.iter().map(of).sum::<f64>() / covers.len() as f64;

@@ -10,7 +10,7 @@ use crate::sphere::LatLon;
 use crate::terrain::Terrain;
 use crate::terrain::coarse::CellFields;
 use crate::tiles::build_over;
-use crate::world::{MapWork, World};
+use crate::world::MapWork;
 use std::sync::Arc;
 
 /// Opening angle of the camera, and the share of it that the planet fills.
@@ -58,11 +58,9 @@ impl Thumbnail {
 
     fn terrain(&self) -> Result<Terrain, String> {
         let planet = Arc::clone(&self.planet);
-        let terrain = match &self.like {
-            Some(like) => Terrain::try_draft(planet, like.world()),
-            None => Terrain::try_draft(planet, &World::default()),
-        }
-        .map_err(|error| error.to_string())?;
+        let builder = Terrain::builder(planet);
+        let builder = if let Some(like) = &self.like { builder.reuse(like) } else { builder };
+        let terrain = builder.draft().map_err(|error| error.to_string())?;
         let drafted = terrain.with_draft_maps(&CellFields::default(), &mut MapWork::default());
         Ok(drafted.unwrap_or(terrain))
     }

@@ -8,7 +8,7 @@ use crate::planet::random::{self, Kind};
 use crate::sphere::{LatLon, spread};
 use crate::terrain::coarse::CellFields;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
-use crate::world::{MapWork, World};
+use crate::world::MapWork;
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -65,7 +65,7 @@ struct Look {
 
 fn look(planet: &Planet) -> Vec<Look> {
     let dirs: Vec<DVec3> = spread(DIRECTIONS).collect();
-    let Ok(terrain) = Terrain::try_draft(Arc::new(planet.clone()), &World::default()) else { return Vec::new() };
+    let Ok(terrain) = Terrain::builder(Arc::new(planet.clone())).draft() else { return Vec::new() };
     // Drafts of the maps show where the land lies, and take a tenth of the time of the first maps proper.
     let terrain = terrain.with_draft_maps(&CellFields::default(), &mut MapWork::default()).unwrap_or(terrain);
     let mut samples = vec![Sample::default(); DIRECTIONS];

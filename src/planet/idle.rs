@@ -6,7 +6,7 @@ use super::param::{ParamPath, Segment};
 use super::shapes::CellStyle;
 use super::{
     Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Giant, GroundEdit, Layer, Planet, Rings, Shape, Steep,
-    Structure, TableRows, Water,
+    Structure, TableRows, Tool, Water,
 };
 
 /// Why a parameter has no effect: a sentence without a full stop. None: it has one.
@@ -20,7 +20,8 @@ impl Planet {
             [Field("layers"), Index(index), rest @ ..] => {
                 self.layers.get(*index).and_then(|layer| self.layer_idle(layer, rest))
             }
-            [Field("edits"), Index(index), Field(name)] => {
+            [Field("edits"), Index(index), Field(name)]
+            | [Field("edits"), Index(index), Field("tool"), Field(name)] => {
                 self.edits.get(*index).and_then(|edit| edit_idle(edit, name))
             }
             [Field("climate"), Field(name)] => self.climate_idle(&self.climate, name),
@@ -50,6 +51,11 @@ impl Planet {
             [Segment::Field("amplitude_m")] => {
                 when(layer.blend == Blend::Multiply, "Multiply scales the height by the noise and the offset alone")
             }
+            [Segment::Field("folding")]
+                if matches!(layer.shape, Shape::Craters(_) | Shape::Dunes(_) | Shape::HeightMap(_)) =>
+            {
+                Some("Craters, dunes and height maps are not folded")
+            }
             [Segment::Field("under" | "folding")] | [Segment::Field("shape"), Segment::Field("follow_wind")] => {
                 when(self.structure.is_none(), "The planet has no structure")
             }
@@ -77,8 +83,13 @@ impl Planet {
 
 fn edit_idle(edit: &GroundEdit, name: &str) -> Idle {
     match name {
+        "limit" | "blend" | "above_m" | "below_m" | "softness" if matches!(edit.tool, Tool::River(_)) => {
+            Some("The course of a river has no limits")
+        }
+        "mask" => when(!edit.tool.reads_mask(), "Rivers and masks are not limited by masks"),
         "outside_mask" => when(edit.limiting_mask().is_none(), "The edit has no mask"),
-        "spread_km" | "smallest" => when(edit.copies <= 1, "There is one copy only"),
+        "copies" | "spread_km" | "smallest" if !edit.tool.is_stamp() => Some("Only stamps have copies"),
+        "spread_km" | "smallest" | "random_turn_deg" => when(edit.copies <= 1, "There is one copy only"),
         _ => None,
     }
 }

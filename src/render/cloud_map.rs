@@ -111,7 +111,7 @@ impl CloudMaps {
             self.least_level = if is_draft { DRAFT_LEVEL } else { 0 };
             let field = match self.field.take().filter(|_| !is_changed) {
                 Some(field) => field,
-                None => Arc::new(CloudField::with(planet, weather.cloned())),
+                None => Arc::new(CloudField::with(revision, weather.cloned())),
             };
             (self.key, self.held, self.coming) = (Some(key), [None; 2], None);
             self.field = Some(field);
@@ -128,7 +128,7 @@ impl CloudMaps {
         if let Some(level) = wanted {
             // A new field has it already.
             if self.paint != paint && !is_changed {
-                Arc::make_mut(field).set_paint(planet);
+                Arc::make_mut(field).set_paint(revision);
             }
             let texels = ground_map(planet, field, SIDE >> level);
             (self.paint, self.ground_level) = (paint, level);

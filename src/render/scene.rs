@@ -124,7 +124,7 @@ pub struct Body<'a> {
 impl<'a> Body<'a> {
     /// A body at a position in scene space, its axes those of the scene. Its planet is the surface's own.
     pub fn new(id: BodyId, surface: &'a Surface, position_m: DVec3) -> Self {
-        let (revision, scene_from_body) = (surface.terrain.revision(), DQuat::IDENTITY);
+        let (revision, scene_from_body) = (surface.terrain.revision().clone(), DQuat::IDENTITY);
         Self { id, revision, surface, position_m, scene_from_body, frozen: None, marked: None }
     }
 
@@ -303,7 +303,7 @@ impl<'a> Scene<'a> {
 
     /// One planet under its own star; scene space has the planet's axes.
     pub fn of_planet(surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Self {
-        Self::of_revision(surface.terrain.revision(), surface, view, sun_dir_planet)
+        Self::of_revision(surface.terrain.revision().clone(), surface, view, sun_dir_planet)
     }
 
     /// As [`Scene::of_planet`], with another revision of the planet for everything that is not in the tiles.

@@ -1,7 +1,8 @@
-//! Compiling a planet with what is there already: the world maps of an earlier revision, or those of a store.
+//! Compiling a planet with what is there already: an earlier terrain, or the world maps of a store.
 
-use super::Terrain;
 use super::coarse::CellFields;
+use super::edits::Memory;
+use super::{Revision, Terrain};
 use crate::planet::{InvalidPlanet, Planet};
 use crate::world::{MapStore, MapWork, World};
 use std::sync::Arc;
@@ -13,16 +14,20 @@ use std::time::Instant;
 pub struct TerrainBuilder {
     planet: Arc<Planet>,
     world: World,
+    /// The revision and the memory of an earlier terrain.
+    before: Option<Revision>,
+    memory: Arc<Memory>,
 }
 
 impl TerrainBuilder {
-    /// Takes the world maps of another terrain that this planet has, too, and its store. What changed decides: a name,
-    /// a biome or a layer over the structure costs nothing to speak of, a seed all of the structure. The result is the
-    /// same as without.
+    /// Takes the world maps and ground edits of another terrain that this planet has, too, and its store. What changed
+    /// decides: a name, a biome or a layer over the structure costs nothing to speak of, a seed all of the structure.
+    /// The result is the same as without.
     pub fn reuse(mut self, other: &Terrain) -> Self {
         let store = self.world.store.take();
         self.world = other.world().clone();
         self.world.store = store.or_else(|| self.world.store.take());
+        (self.before, self.memory) = (Some(other.revision.clone()), other.memory.clone());
         self
     }
 
@@ -48,7 +53,7 @@ impl TerrainBuilder {
     pub fn build_while(self, go_on: &(dyn Fn(f64) -> bool + Sync)) -> Result<Option<Terrain>, InvalidPlanet> {
         let (fields, mut work) = (CellFields::default(), MapWork::default());
         let begun = Instant::now();
-        let mut terrain = Terrain::try_draft(self.planet, &self.world)?;
+        let mut terrain = self.draft()?;
         while !terrain.has_final_maps() {
             let done = terrain.map_progress();
             match terrain.with_next_map(&fields, &|| go_on(done), &mut work) {
@@ -62,18 +67,24 @@ impl TerrainBuilder {
 
     /// As [`TerrainBuilder::build`], with layer fields that are kept for the next time, and a count of the work.
     pub(crate) fn build_with(self, fields: &CellFields, work: &mut MapWork) -> Result<Terrain, InvalidPlanet> {
-        let mut terrain = Terrain::try_draft(self.planet, &self.world)?;
+        let mut terrain = self.draft()?;
         while let Some(next) = terrain.with_next_map(fields, &|| true, work) {
             terrain = next;
         }
         Ok(terrain)
+    }
+
+    /// The terrain with the world maps that are there.
+    pub(crate) fn draft(self) -> Result<Terrain, InvalidPlanet> {
+        let revision = Revision::try_after(self.planet, self.before.as_ref())?;
+        Ok(Terrain::draft(&revision, &self.world, self.memory))
     }
 }
 
 impl Terrain {
     /// A planet to be compiled with what an earlier terrain or a store has of it already.
     pub fn builder(planet: Arc<Planet>) -> TerrainBuilder {
-        TerrainBuilder { planet, world: World::default() }
+        TerrainBuilder { planet, world: World::default(), before: None, memory: Arc::default() }
     }
 }
 

@@ -42,7 +42,7 @@ impl Terrain {
     }
 
     fn no_inputs(&self) -> CurveInputs {
-        CurveInputs { heights: Vec::new(), layers: vec![Vec::new(); self.planet.layers.len()] }
+        CurveInputs { heights: Vec::new(), layers: vec![Vec::new(); self.planet().layers.len()] }
     }
 
     fn curve_inputs_of_chunk(&self, dirs: &[DVec3], spacing_rad: f64) -> CurveInputs {

@@ -73,7 +73,8 @@ impl Terrain {
     /// are left out, which is far faster. 0 is all detail.
     pub fn layer_effects(&self, dirs_planet: &[DVec3], index: usize, spacing_rad: f64) -> Vec<LayerEffect> {
         let spacing_rad = self.river_spacing_rad().map_or(0.0, |coarsest_rad| spacing_rad.clamp(0.0, coarsest_rad));
-        let is_everywhere = self.planet.layers.get(index).is_some_and(|layer| layer.enabled && layer.masks.is_empty());
+        let is_everywhere =
+            self.planet().layers.get(index).is_some_and(|layer| layer.enabled && layer.masks.is_empty());
         let mask = if is_everywhere { 1.0 } else { 0.0 };
         let mut effects = vec![LayerEffect { mask, change_m: 0.0 }; dirs_planet.len()];
         let layer = self.stack.layers_before() + index;

@@ -93,7 +93,7 @@ use points::unit;
 pub use query::{Detail, Sample, Scratch, Wanted};
 use relief::Relief;
 pub use revision::Revision;
-use revision::{Compiled, Keys, TileContent, TileKeys};
+use revision::{Keys, TileKeys};
 use std::f64::consts::PI;
 use std::sync::Arc;
 pub use water::River;
@@ -103,7 +103,7 @@ pub use water::River;
 /// The same planet has bit-identical heights on every machine, instruction set and number of threads.
 #[derive(Clone, Debug)]
 pub struct Terrain {
-    planet: Arc<Planet>,
+    revision: Revision,
     simd: Simd,
     pub(crate) stack: LayerStack,
     /// The layers under the structure.
@@ -115,9 +115,6 @@ pub struct Terrain {
     memory: Arc<Memory>,
     /// Biome relief, if any biome has one.
     pub(crate) relief: Option<Relief>,
-    keys: Keys,
-    content: TileContent,
-    map_inputs: Inputs,
     rules: Rules,
     biomes: CompiledBiomes,
     height_bounds_m: (f64, f64),
@@ -154,7 +151,7 @@ impl Terrain {
 
     /// Share of the world maps that is solved, 0 to 1.
     pub(crate) fn map_progress(&self) -> f64 {
-        self.world().progress(&self.map_inputs)
+        self.world().progress(self.map_inputs())
     }
 
     /// As [`Terrain::try_new`]: waits for the finest world maps.
@@ -166,33 +163,29 @@ impl Terrain {
         Self::builder(planet).build_with(fields, work)
     }
 
-    /// Compiles a planet with the world maps of an earlier revision, which serve until its own are solved.
-    ///
-    /// # Errors
-    /// As [`Terrain::try_new`].
-    pub(crate) fn try_draft(planet: Arc<Planet>, world: &World) -> Result<Self, InvalidPlanet> {
-        planet.check()?;
-        let Compiled { stack, under, edits, climate, relief, map_inputs, content, keys } = Compiled::new(&planet);
-        let (under, world) = (under.map(Arc::new), world.serving(&map_inputs));
-        let simd = Simd::detect();
-        let (rules, biomes, height_bounds_m) = (Rules::new(&planet), CompiledBiomes::new(&planet), (0.0, 0.0));
+    /// The terrain of a revision with the world maps of an earlier terrain, which serve until its own are solved, and
+    /// with what its edits know of the ground.
+    pub(crate) fn draft_after(revision: &Revision, before: &Terrain) -> Self {
+        Self::draft(revision, before.world(), before.memory.clone())
+    }
+
+    /// The same with these world maps, and with a memory of edits.
+    pub(crate) fn draft(revision: &Revision, world: &World, memory: Arc<Memory>) -> Self {
+        let (planet, compiled) = (revision.planet(), &revision.compiled);
         let terrain = Self {
-            planet,
-            simd,
-            stack,
-            under,
-            edits,
-            memory: Arc::default(),
-            climate,
-            relief,
-            keys,
-            content,
-            map_inputs,
-            rules,
-            biomes,
-            height_bounds_m,
+            simd: Simd::detect(),
+            stack: compiled.stack.clone(),
+            under: compiled.under.clone(),
+            edits: compiled.edits.clone(),
+            memory,
+            climate: compiled.climate.clone(),
+            relief: compiled.relief.clone(),
+            rules: Rules::new(planet),
+            biomes: CompiledBiomes::new(planet),
+            height_bounds_m: (0.0, 0.0),
+            revision: revision.clone(),
         };
-        Ok(terrain.over(world))
+        terrain.over(world.serving(&compiled.map_inputs))
     }
 
     /// The same terrain with these world maps.
@@ -207,20 +200,24 @@ impl Terrain {
             Arc::make_mut(under).set_maps(&Maps { plates, weather: None });
         }
         self.climate.world = world;
-        let ground = crate::planet::Key::of(&(self.planet.radius_km, self.tile_keys().heights));
-        self.memory = self.edits.as_ref().map(|edits| edits.memory(ground)).unwrap_or_default();
+        let ground = crate::planet::Key::of(&(self.planet().radius_km, self.tile_keys().heights));
+        self.memory = self.edits.as_ref().map(|edits| edits.memory(ground, &self.memory)).unwrap_or_default();
         self.height_bounds_m = self.with_relief(self.with_edits(self.stack.bounds_m(), None));
         self
     }
 
     /// The revision of the planet that the terrain was compiled from.
-    pub fn revision(&self) -> Revision {
-        Revision::with(self.planet.clone(), self.keys.clone())
+    pub fn revision(&self) -> &Revision {
+        &self.revision
     }
 
     /// The content keys of the planet.
     pub fn keys(&self) -> &Keys {
-        &self.keys
+        self.revision.keys()
+    }
+
+    fn map_inputs(&self) -> &Inputs {
+        &self.revision.compiled.map_inputs
     }
 
     /// The world maps that serve.
@@ -253,7 +250,7 @@ impl Terrain {
 
     /// Whether the world maps that serve are the planet's own, at their finest level.
     pub fn has_final_maps(&self) -> bool {
-        self.world().is_final(&self.map_inputs)
+        self.world().is_final(self.map_inputs())
     }
 
     /// The same terrain with the next level of its own world maps. None if its maps are final, or if `keep_going` said
@@ -273,7 +270,7 @@ impl Terrain {
 
     /// Whether [`Terrain::with_draft_maps`] has something to do.
     pub(crate) fn wants_draft(&self) -> bool {
-        self.world().wants_draft(&self.map_inputs)
+        self.world().wants_draft(self.map_inputs())
     }
 
     /// The same terrain with drafts of its own world maps, if those of another planet serve and its own must be
@@ -289,7 +286,7 @@ impl Terrain {
     /// The layers as world maps read them.
     fn ground<'a>(&'a self, fields: &'a CellFields) -> LayerGround<'a> {
         let (stack, under, edits) = (&self.stack, self.under.as_deref(), self.edits.as_deref());
-        LayerGround { inputs: &self.map_inputs, stack, under, edits, simd: self.simd, fields }
+        LayerGround { inputs: self.map_inputs(), stack, under, edits, simd: self.simd, fields }
     }
 
     /// The paint of the climate at points; nothing if there is none at any.
@@ -328,7 +325,7 @@ impl Terrain {
         match &self.edits {
             Some(edits) => {
                 let near = [edits.key_near(id), edits.mask_key_near(id), edits.paint_key_near(id)];
-                self.content.with_edits(keys, near)
+                self.revision.compiled.content.with_edits(keys, near)
             }
             None => keys,
         }
@@ -336,7 +333,7 @@ impl Terrain {
 
     /// Content keys of the tiles that the terrain makes, with the world maps that serve, before edits.
     pub(crate) fn tile_keys(&self) -> TileKeys {
-        self.content.keys(self.climate.map_keys(), self.world().plates.key())
+        self.revision.compiled.content.keys(self.climate.map_keys(), self.world().plates.key())
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The results are the same.
@@ -347,7 +344,7 @@ impl Terrain {
 
     /// The planet it was compiled from.
     pub fn planet(&self) -> &Arc<Planet> {
-        &self.planet
+        self.revision.planet()
     }
 
     /// The instruction set in use.

@@ -184,12 +184,12 @@ impl Terrain {
 
     /// [`Terrain::height_m`] of many directions with less of the rivers, on all cores.
     pub fn heights_detailed_m(&self, dirs_planet: &[DVec3], detail: Detail) -> Vec<f64> {
-        self.heights_spaced_m(dirs_planet, detail.spacing_rad(self.planet.radius_m()))
+        self.heights_spaced_m(dirs_planet, detail.spacing_rad(self.planet().radius_m()))
     }
 
     /// [`Terrain::samples`] with less of the rivers.
     pub fn samples_detailed(&self, dirs_planet: &[DVec3], wanted: Wanted, detail: Detail) -> Vec<Sample> {
-        let spacing_rad = detail.spacing_rad(self.planet.radius_m());
+        let spacing_rad = detail.spacing_rad(self.planet().radius_m());
         let mut samples = vec![Sample::default(); dirs_planet.len()];
         let tasks = samples.par_chunks_mut(TASK).zip(dirs_planet.par_chunks(TASK));
         tasks.for_each(|(samples, dirs)| {
@@ -282,7 +282,7 @@ impl Terrain {
             let (noise, from_maps, painted) = inputs.at(i);
             let climate = self.rules.at(dir.z, sample.height_m, noise, from_maps, &painted);
             let PointClimate { temperature_c, temperature, moisture, .. } = climate;
-            let precipitation_mm = moisture * self.planet.climate.wettest_mm;
+            let precipitation_mm = moisture * self.planet().climate.wettest_mm;
             *sample = Sample { temperature_c, temperature, moisture, precipitation_mm, ..*sample };
             if wanted.biome {
                 let cosine = sample.normal_planet.dot(dir);
@@ -304,7 +304,7 @@ impl Terrain {
             });
         });
         let mut of_preset = layers_m.split_off(self.stack.layers_before());
-        of_preset.truncate(self.planet.layers.len());
+        of_preset.truncate(self.planet().layers.len());
         of_preset
     }
 
@@ -346,7 +346,7 @@ impl Terrain {
     /// The slope at the `i`th point, from a gradient by the unit direction.
     fn slope(&self, dir: DVec3, gradient: &Components, i: usize, height_m: f64) -> DVec3 {
         let gradient = gradient.each_ref().map(|component| f64::from(component[i]));
-        tangent_slope(dir, DVec3::from_array(gradient), self.planet.radius_m() + height_m)
+        tangent_slope(dir, DVec3::from_array(gradient), self.planet().radius_m() + height_m)
     }
 }
 

@@ -1,5 +1,5 @@
-//! What changed between two revisions of a planet: one comparison of content keys, which the tiles, the renderer and
-//! the editor share.
+//! One state of a planet, compiled once for all that show or query it, and what changed between two of them: one
+//! comparison of content keys, which the tiles, the renderer and the editor share.
 //!
 //! Stages that tiles keep have keys of compiled content: of landforms, of the layer stack, of climate rules, of the
 //! world maps that they read. A renamed layer, a layer that is off or a parameter that nothing reads therefore changes
@@ -18,26 +18,40 @@ use crate::world::weather::Weather;
 use crate::world::{Inputs, Slot, StructureInputs};
 use std::sync::Arc;
 
-/// One state of a planet, and the content keys of what is made from it.
+/// One state of a planet, compiled, and the content keys of what is made from it.
 #[derive(Clone, Debug)]
 pub struct Revision {
     planet: Arc<Planet>,
-    keys: Keys,
+    pub(super) compiled: Arc<Compiled>,
 }
 
 impl Revision {
-    /// Finds the keys of a planet. Far cheaper than its terrain: nothing is evaluated.
+    /// Compiles a planet. Far cheaper than its terrain: nothing is evaluated.
     ///
     /// # Errors
     /// An invalid planet: every problem it has.
     pub fn try_new(planet: Arc<Planet>) -> Result<Self, InvalidPlanet> {
-        planet.check()?;
-        let keys = Compiled::new(&planet).keys;
-        Ok(Self { planet, keys })
+        Self::try_after(planet, None)
     }
 
-    pub(super) fn with(planet: Arc<Planet>, keys: Keys) -> Self {
-        Self { planet, keys }
+    /// As [`Revision::try_new`], of a planet that was edited: the ground edits that it shares with an earlier revision
+    /// are not compiled again. The result is the same as without.
+    ///
+    /// # Errors
+    /// As [`Revision::try_new`].
+    pub fn try_after(planet: Arc<Planet>, before: Option<&Revision>) -> Result<Self, InvalidPlanet> {
+        if let Some(same) = before.filter(|before| Arc::ptr_eq(&before.planet, &planet)) {
+            return Ok(same.clone());
+        }
+        planet.check()?;
+        let edits = before.and_then(|before| before.compiled.edits.as_ref());
+        let compiled = Arc::new(Compiled::new(&planet, edits));
+        Ok(Self { planet, compiled })
+    }
+
+    /// The ground edits, if any is on.
+    pub(crate) fn edits(&self) -> Option<&Arc<Edits>> {
+        self.compiled.edits.as_ref()
     }
 
     /// The planet.
@@ -47,12 +61,12 @@ impl Revision {
 
     /// The content keys.
     pub fn keys(&self) -> &Keys {
-        &self.keys
+        &self.compiled.keys
     }
 
     /// The stages that must run again to get from an earlier revision to this one.
     pub fn changes_since(&self, before: &Revision) -> Stages {
-        self.keys.changes_since(&before.keys)
+        self.keys().changes_since(before.keys())
     }
 }
 
@@ -163,10 +177,11 @@ impl TileContent {
 }
 
 /// A planet, compiled, before its world maps are known.
+#[derive(Debug)]
 pub(super) struct Compiled {
     pub(super) stack: LayerStack,
     /// The layers under the structure.
-    pub(super) under: Option<LayerStack>,
+    pub(super) under: Option<Arc<LayerStack>>,
     /// Ground edits.
     pub(super) edits: Option<Arc<Edits>>,
     pub(super) climate: CompiledClimate,
@@ -177,9 +192,9 @@ pub(super) struct Compiled {
 }
 
 impl Compiled {
-    /// Compiles a valid planet.
-    pub(super) fn new(planet: &Planet) -> Self {
-        let edits = Edits::new(planet);
+    /// Compiles a valid planet after the edits of an earlier revision.
+    fn new(planet: &Planet, before: Option<&Arc<Edits>>) -> Self {
+        let edits = Edits::new(planet, before);
         let painted = edits.as_ref();
         let (stack, under) = (LayerStack::new(planet, painted), LayerStack::under(planet, painted));
         let climate = CompiledClimate::new(planet);
@@ -230,7 +245,7 @@ impl Compiled {
             optical_depth,
             air_tables,
         };
-        Self { stack, under, edits, climate, relief, map_inputs, content, keys }
+        Self { stack, under: under.map(Arc::new), edits, climate, relief, map_inputs, content, keys }
     }
 }
 
@@ -282,7 +297,7 @@ mod tests {
     fn tiles_have_the_keys_of_the_maps_that_they_were_made_from() {
         let structure = Some(Structure { grids: 1, ..Structure::default() });
         let planet = Planet { structure, ..shipped::layered() };
-        let content = Compiled::new(&planet).content;
+        let content = Compiled::new(&planet, None).content;
         let map = |n: u32| Some(Key::of(&n));
         let own = content.keys([map(2), map(3), map(1)], map(4));
         assert!(content.relief.is_some());

@@ -16,7 +16,8 @@ use super::cache::DEFAULT_BUDGET_BYTES;
 use super::worker::Worker;
 use super::{Memory, Surface};
 use crate::lod::View;
-use crate::planet::Planet;
+use crate::planet::{InvalidPlanet, Planet};
+use crate::terrain::Revision;
 use crate::world::MapStore;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -149,10 +150,16 @@ pub(super) struct Progress {
 
 #[derive(Clone)]
 pub(super) struct Request {
-    pub(super) planet: Arc<Planet>,
+    pub(super) revision: Revision,
     pub(super) views: Vec<View>,
     pub(super) asked: Instant,
     pub(super) number: u64,
+}
+
+impl Request {
+    pub(super) fn planet(&self) -> &Arc<Planet> {
+        self.revision.planet()
+    }
 }
 
 impl Shared {
@@ -215,25 +222,32 @@ impl Builder {
     }
 
     /// Requests a planet as seen from a view. Cheap if nothing changed since the last call; call it every frame.
-    pub fn request(&self, planet: &Arc<Planet>, view: &View) {
-        self.request_views(planet, std::slice::from_ref(view));
+    /// Another planet is compiled here.
+    ///
+    /// # Errors
+    /// An invalid planet. The last request stays.
+    pub fn request(&self, planet: &Arc<Planet>, view: &View) -> Result<(), InvalidPlanet> {
+        let before = self.shared.lock().request.as_ref().map(|request| request.revision.clone());
+        self.request_views(&Revision::try_after(planet.clone(), before.as_ref())?, std::slice::from_ref(view));
+        Ok(())
     }
 
-    /// As [`Builder::request`], for several views, such as a main picture and a mirror. A view is known by its place in
-    /// the list.
-    pub fn request_views(&self, planet: &Arc<Planet>, views: &[View]) {
+    /// Requests a planet that is compiled, as seen from several views, such as a main picture and a mirror. A view is
+    /// known by its place in the list.
+    pub fn request_views(&self, revision: &Revision, views: &[View]) {
+        let planet = revision.planet();
         let mut state = self.shared.lock();
         let before = state.request.as_ref();
         let same_planet =
-            before.is_some_and(|request| Arc::ptr_eq(&request.planet, planet) || request.planet == *planet);
+            before.is_some_and(|request| Arc::ptr_eq(request.planet(), planet) || request.planet() == planet);
         if !same_planet || before.is_some_and(|request| request.views != views) {
             let number = self.shared.newest.fetch_add(1, Ordering::Relaxed) + 1;
             if !same_planet {
                 self.shared.newest_planet.store(number, Ordering::Relaxed);
             }
-            let (planet, views) = (planet.clone(), views.to_vec());
+            let (revision, views) = (revision.clone(), views.to_vec());
             state.views.resize_with(views.len(), Progress::default);
-            state.request = Some(Request { planet, views, asked: Instant::now(), number });
+            state.request = Some(Request { revision, views, asked: Instant::now(), number });
             self.shared.changed.notify_all();
         }
     }
@@ -342,12 +356,12 @@ mod tests {
                 std::thread::sleep(Duration::from_millis(1));
             }
         };
-        builder.request(&planet, &view(64));
+        builder.request(&planet, &view(64)).unwrap();
         settle();
         assert_eq!(builder.error().as_deref(), Some("This planet could not be built: the ground gave way"));
         assert!(builder.surface().is_none());
         BROKEN.store(false, Ordering::Relaxed);
-        builder.request(&planet, &view(65));
+        builder.request(&planet, &view(65)).unwrap();
         settle();
         assert_eq!(builder.error(), None);
         assert!(builder.surface().is_some_and(|surface| surface.complete));
@@ -379,7 +393,7 @@ mod tests {
         let view = opening::opening_view(&planet, [64, 64], Quality::Low);
         assert!(builder.progress().is_finished() && builder.progress().share() == 1.0);
         builder.set_paused(true);
-        builder.request(&planet, &view);
+        builder.request(&planet, &view).unwrap();
         std::thread::sleep(Duration::from_millis(50));
         let progress = builder.progress();
         assert!(builder.is_busy() && builder.surface().is_none(), "it did not rest");
@@ -397,11 +411,11 @@ mod tests {
         let planet = Arc::new(Planet::default());
         let view = opening::opening_view(&planet, [64, 64], Quality::Low);
         builder.set_paused(true);
-        builder.request(&planet, &view);
+        builder.request(&planet, &view).unwrap();
         builder.cancel();
         assert!(!builder.is_busy() && builder.progress().is_finished());
         builder.set_paused(false);
-        builder.request(&planet, &view);
+        builder.request(&planet, &view).unwrap();
         wait_for(|| !builder.is_busy());
         assert!(builder.surface().is_some_and(|surface| surface.complete));
     }

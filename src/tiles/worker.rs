@@ -7,9 +7,8 @@ use super::horizon::HorizonFinder;
 use super::refine::{Cut, Goal, refine};
 use super::{BuildStats, Surface, find_detail};
 use crate::lod::tile::{DetailTile, Tile};
-use crate::planet::{InvalidPlanet, Planet};
-use crate::terrain::Terrain;
 use crate::terrain::coarse::CellFields;
+use crate::terrain::{Revision, Terrain};
 use crate::world::{KeepGoing, MapStore, World};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -101,7 +100,7 @@ impl Worker {
             }));
             let mut state = shared.lock();
             let gone_wrong = match slice {
-                Ok(Ok((surface, done))) => {
+                Ok((surface, done)) => {
                     // A newer request may have fewer views.
                     if let Some(view) = state.views.get_mut(index) {
                         view.begun = request.number;
@@ -115,7 +114,6 @@ impl Worker {
                     }
                     None
                 }
-                Ok(Err(invalid)) => Some(invalid.to_string()),
                 Err(panic) => {
                     // The state may be inconsistent.
                     self.cache.clear();
@@ -129,7 +127,7 @@ impl Worker {
                 state.views.iter_mut().for_each(|view| view.finished = request.number);
             }
             if let Some(why) = &gone_wrong {
-                log::error!("{} could not be built: {why}", request.planet.name);
+                log::error!("{} could not be built: {why}", request.planet().name);
             }
             state.error = gone_wrong.map(|why| format!("This planet could not be built: {why}"));
             state.memory = self.cache.memory();
@@ -141,9 +139,9 @@ impl Worker {
 
     /// Builds a surface of one view. Returns whether it has everything that the request asks for: first all tiles, then
     /// their detail.
-    fn slice(&mut self, shared: &Shared, request: &Request, index: usize) -> Result<(Surface, bool), InvalidPlanet> {
+    fn slice(&mut self, shared: &Shared, request: &Request, index: usize) -> (Surface, bool) {
         let begun = Instant::now();
-        let mut terrain = self.compile(&request.planet)?;
+        let mut terrain = self.compile(&request.revision);
         if std::mem::replace(&mut self.request, request.number) != request.number {
             self.cache.begin_request();
         }
@@ -190,7 +188,7 @@ impl Worker {
                 if !surface.complete || is_first || surface.stats.tiles_built > tiles_before {
                     work.complete = surface.complete.then(|| (surface.clone(), None));
                     self.views[index] = work;
-                    return Ok((surface, false));
+                    return (surface, false);
                 }
                 (surface, None)
             }
@@ -206,18 +204,18 @@ impl Worker {
         work.stats = surface.stats;
         work.complete = (!done).then(|| (surface.clone(), Some(finder)));
         self.views[index] = work;
-        Ok((surface, done))
+        (surface, done)
     }
 
-    /// Compiles a planet. World maps of the revision before serve until [`Worker::solve_maps`].
-    fn compile(&mut self, planet: &Arc<Planet>) -> Result<Arc<Terrain>, InvalidPlanet> {
-        if let Some(terrain) = self.terrain.as_ref().filter(|terrain| Arc::ptr_eq(terrain.planet(), planet)) {
-            return Ok(terrain.clone());
-        }
+    /// The terrain of a revision. World maps of the revision before serve until [`Worker::solve_maps`].
+    fn compile(&mut self, revision: &Revision) -> Arc<Terrain> {
         profiling::scope!("compile");
-        let first = || World { store: self.maps.clone(), ..World::default() };
-        let world = self.terrain.as_ref().map_or_else(first, |before| before.world().clone());
-        Ok(self.serve(Terrain::try_draft(planet.clone(), &world)?))
+        let terrain = match &self.terrain {
+            Some(terrain) if Arc::ptr_eq(terrain.planet(), revision.planet()) => return terrain.clone(),
+            Some(before) => Terrain::draft_after(revision, before),
+            None => Terrain::draft(revision, &World { store: self.maps.clone(), ..World::default() }, Arc::default()),
+        };
+        self.serve(terrain)
     }
 
     /// Solves the next level of the world maps. Returns the same terrain if `wanted` said no.

@@ -44,6 +44,7 @@ mod saving;
 mod sculpt;
 mod sphere;
 mod spread;
+mod stages;
 mod stamp;
 mod structural;
 mod structure;

@@ -111,16 +111,15 @@ fn a_builder_tells_what_is_wrong_with_a_planet_and_goes_on_with_the_next() {
     let valid = Arc::new(Planet::default());
     let view = opening::opening_view(&valid, [64, 64], Quality::Low);
     let settle = |planet: &Arc<Planet>| {
-        builder.request(planet, &view);
+        builder.request(planet, &view).unwrap();
         while builder.is_busy() {
             std::thread::sleep(Duration::from_millis(1));
         }
     };
     settle(&valid);
     for (what, planet) in broken_planets().into_iter().step_by(40) {
-        settle(&Arc::new(planet));
-        let error = builder.error().unwrap_or_else(|| panic!("{what} was built"));
-        assert!(error.starts_with("This planet could not be built: the planet is not valid: "), "{what}: {error}");
+        let Err(error) = builder.request(&Arc::new(planet), &view) else { panic!("{what} is built") };
+        assert!(error.to_string().starts_with("the planet is not valid: "), "{what}: {error}");
         // The surface on screen stays.
         assert!(builder.surface().is_some_and(|surface| surface.complete));
     }

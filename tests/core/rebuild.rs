@@ -10,6 +10,7 @@ use tellus::lod::{Camera, Quality, Vertex, View};
 use tellus::planet::param::{Stage, Stages};
 use tellus::planet::{Fbm, Layer, Mask, Planet, Shape};
 use tellus::sphere::{LatLon, NodeId};
+use tellus::terrain::Revision;
 use tellus::tiles::{BuildStats, Builder, BuilderOptions, Surface, build_now};
 
 /// A view of a planet of 1500 km radius; `radii` is the distance from its centre.
@@ -27,8 +28,12 @@ fn settled(builder: &Builder) -> Arc<Surface> {
     builder.surface().unwrap()
 }
 
+fn revision(planet: &Arc<Planet>) -> Revision {
+    Revision::try_new(planet.clone()).unwrap()
+}
+
 fn ask(builder: &Builder, planet: &Planet, view: &View) -> BuildStats {
-    builder.request(&Arc::new(planet.clone()), view);
+    builder.request(&Arc::new(planet.clone()), view).unwrap();
     settled(builder).stats
 }
 
@@ -43,9 +48,9 @@ fn one_builder_serves_several_views_which_share_their_tiles() {
     let alone: Vec<_> = views.iter().map(|view| build_now(&planet, view).unwrap()).collect();
     let builder = Builder::new(|| {});
     // One after the other: two views that meet a tile at the same moment may both build it.
-    builder.request_views(&planet, &views[..1]);
+    builder.request_views(&revision(&planet), &views[..1]);
     settled(&builder);
-    builder.request_views(&planet, &views);
+    builder.request_views(&revision(&planet), &views);
     settled(&builder);
     let built = builder.surface_of(1).unwrap().stats.tiles_built;
     for (i, alone) in alone.iter().enumerate() {
@@ -58,7 +63,7 @@ fn one_builder_serves_several_views_which_share_their_tiles() {
     let mut edited = Planet::clone(&planet);
     edited.layers[0].amplitude_m *= 1.25;
     let edited = Arc::new(edited);
-    builder.request_views(&edited, &views[..2]);
+    builder.request_views(&revision(&edited), &views[..2]);
     settled(&builder);
     for (i, view) in views[..2].iter().enumerate() {
         assert!(bits(&builder.surface_of(i).unwrap()) == bits(&build_now(&edited, view).unwrap()), "view {i}");
@@ -71,9 +76,10 @@ fn a_view_that_moves_all_the_time_leaves_time_to_the_others() {
     let planet = Arc::new(full_planet());
     let other = view(-60.0, 3.0);
     let builder = Builder::new(|| {});
+    let revision = revision(&planet);
     // A new request every few milliseconds: slices of the first view alone could take all the time.
     for step in 0..2000 {
-        builder.request_views(&planet, &[view(30.0 + 0.01 * f64::from(step), 1.3), other]);
+        builder.request_views(&revision, &[view(30.0 + 0.01 * f64::from(step), 1.3), other]);
         std::thread::sleep(Duration::from_millis(2));
         if builder.surface_of(1).is_some() && builder.surface_of(0).is_some() {
             return;
@@ -242,7 +248,7 @@ fn every_surface_on_the_way_is_whole_and_of_one_planet() {
     for step in 0..60 {
         // A slider is dragged for a while, then released.
         planet.layers[2].seed = step.min(20);
-        builder.request(&Arc::new(planet.clone()), &view);
+        builder.request(&Arc::new(planet.clone()), &view).unwrap();
         std::thread::sleep(Duration::from_millis(15));
         seen.extend(builder.surface().filter(|new| !seen.last().is_some_and(|old| Arc::ptr_eq(old, new))));
     }
@@ -269,7 +275,7 @@ fn world_maps_are_solved_for_what_they_read_and_never_before_the_first_surface()
         let _ = bell.send(()).and_then(|()| bell.send(()));
     });
     let all_surfaces = |planet: &Planet| {
-        builder.request(&Arc::new(planet.clone()), &view);
+        builder.request(&Arc::new(planet.clone()), &view).unwrap();
         let mut seen = Vec::new();
         // The last surface may be there before the first look.
         loop {
@@ -334,7 +340,7 @@ proptest! {
         let views = [view(30.0, 3.0), view(30.0, 1.2), view(30.0, 1.02), view(110.0, 1.3), view(-60.0, 8.0)];
         let builder = Builder::with_options(BuilderOptions::default().budget_bytes(budget), || {});
         let (mut past, mut future, mut planet, mut view) = (Vec::new(), Vec::new(), full_planet(), views[0]);
-        builder.request(&Arc::new(planet.clone()), &view);
+        builder.request(&Arc::new(planet.clone()), &view).unwrap();
         for event in events {
             match event {
                 Event::Edit(which) => {
@@ -356,10 +362,10 @@ proptest! {
                 Event::Wait => { settled(&builder); }
                 Event::WaitALittle(millis) => std::thread::sleep(Duration::from_millis(millis)),
             }
-            builder.request(&Arc::new(planet.clone()), &view);
+            builder.request(&Arc::new(planet.clone()), &view).unwrap();
         }
         let planet = Arc::new(planet);
-        builder.request(&planet, &view);
+        builder.request(&planet, &view).unwrap();
         prop_assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view).unwrap()));
     }
 }

@@ -141,7 +141,7 @@ fn heights_follow_the_biomes_only_where_one_has_a_relief() {
     let view = View { camera, size_px: [320, 200], quality: Quality::Low };
     let builder = Builder::new(|| {});
     let ask = |planet: &Planet| {
-        builder.request(&Arc::new(planet.clone()), &view);
+        builder.request(&Arc::new(planet.clone()), &view).unwrap();
         while !builder.has_all_tiles() {
             std::thread::sleep(std::time::Duration::from_millis(1));
         }

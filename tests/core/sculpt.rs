@@ -358,7 +358,7 @@ fn one_stroke_is_the_same_in_queries_and_in_tiles_from_orbit_to_the_ground_over_
 }
 
 pub(crate) fn settled(builder: &Builder, planet: &Planet, view: &View) -> Arc<Surface> {
-    builder.request(&Arc::new(planet.clone()), view);
+    builder.request(&Arc::new(planet.clone()), view).unwrap();
     while !builder.has_all_tiles() {
         std::thread::sleep(Duration::from_millis(1));
     }

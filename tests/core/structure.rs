@@ -134,7 +134,7 @@ fn the_builder_ends_with_the_surface_that_a_build_from_nothing_gives() {
             structure.rivers.seed = step as u32;
         }
         let planet = Arc::new(planet.clone());
-        builder.request(&planet, &view);
+        builder.request(&planet, &view).unwrap();
         while !builder.has_all_tiles() {
             std::thread::sleep(std::time::Duration::from_millis(1));
         }
@@ -160,7 +160,7 @@ fn an_edit_of_the_structure_shows_a_draft_first() {
     let mut all_surfaces = |edit: &dyn Fn(&mut Structure)| {
         planet.structure.iter_mut().for_each(edit);
         let planet = Arc::new(planet.clone());
-        builder.request(&planet, &view);
+        builder.request(&planet, &view).unwrap();
         let mut seen = Vec::new();
         while !builder.has_all_tiles() {
             surfaces.recv().unwrap();

@@ -329,16 +329,16 @@ proptest! {
         let builder = Builder::new(|| {});
         let mut planet = planet();
         let view = view(3_000_000.0, -80.0);
-        builder.request(&Arc::new(planet.clone()), &view);
+        builder.request(&Arc::new(planet.clone()), &view).unwrap();
         for (which, amount, wait) in edits {
             edit(&mut planet, which, amount);
-            builder.request(&Arc::new(planet.clone()), &view);
+            builder.request(&Arc::new(planet.clone()), &view).unwrap();
             if wait {
                 settled(&builder);
             }
         }
         let planet = Arc::new(planet);
-        builder.request(&planet, &view);
+        builder.request(&planet, &view).unwrap();
         prop_assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view).unwrap()));
     }
 }
@@ -349,7 +349,7 @@ fn edits_rebuild_no_more_than_they_must() {
     let mut planet = planet();
     let view = view(3_000_000.0, -80.0);
     let ask = |planet: &Planet| {
-        builder.request(&Arc::new(planet.clone()), &view);
+        builder.request(&Arc::new(planet.clone()), &view).unwrap();
         settled(&builder).stats
     };
     assert!(ask(&planet).octave_samples > 0);
@@ -368,7 +368,7 @@ fn a_mask_by_slope_asks_only_the_layers_below_it() {
     let mut planet = planet();
     let view = view(3_000_000.0, -80.0);
     let octaves_a_tile = |planet: &Planet| {
-        builder.request(&Arc::new(planet.clone()), &view);
+        builder.request(&Arc::new(planet.clone()), &view).unwrap();
         let stats = settled(&builder).stats;
         stats.octave_samples as f64 / (stats.tiles_built * TILE_SIDE * TILE_SIDE) as f64
     };
@@ -411,13 +411,13 @@ fn a_mask_follows_its_name_to_another_layer() {
     let builder = Builder::new(|| {});
     let view = view(3_000_000.0, -80.0);
     let mut planet = planet();
-    builder.request(&Arc::new(planet.clone()), &view);
+    builder.request(&Arc::new(planet.clone()), &view).unwrap();
     settled(&builder);
     // Only names change, but the mask on "mountains" now names another layer.
     let name = std::mem::replace(&mut planet.layers[0].name, "floor".to_owned());
     planet.layers[3].name = name;
     let planet = Arc::new(planet);
-    builder.request(&planet, &view);
+    builder.request(&planet, &view).unwrap();
     assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view).unwrap()));
 }
 
@@ -461,7 +461,7 @@ fn a_tile_far_from_an_edit_learns_of_a_new_shore() {
     let builder = Builder::new(|| {});
     let view = view(3_000_000.0, -80.0);
     let mut planet = moist();
-    builder.request(&Arc::new(planet.clone()), &view);
+    builder.request(&Arc::new(planet.clone()), &view).unwrap();
     settled(&builder);
     for step in 0..4 {
         match step {
@@ -471,7 +471,7 @@ fn a_tile_far_from_an_edit_learns_of_a_new_shore() {
             _ => planet.water = None,
         }
         let planet = Arc::new(planet.clone());
-        builder.request(&planet, &view);
+        builder.request(&planet, &view).unwrap();
         assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view).unwrap()), "step {step}");
     }
 }

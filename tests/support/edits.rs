@@ -96,6 +96,12 @@ pub fn every_edit(planet: &Planet) -> Vec<Edit> {
             if let Some((name, old, new)) = renamed {
                 follow(&mut edited, name, &old, &new);
             }
+            for mask in edited.layers.iter_mut().flat_map(|layer| &mut layer.masks) {
+                // A mask of another kind.
+                if mask.layer() == Some("") {
+                    mask.set_layer(&planet.layers[0].name);
+                }
+            }
             // With a biome relief, heights follow climate and biomes, and only the content keys tell how far.
             let reliefs = planet.biomes.palette.iter().any(|biome| biome.relief_m > 0.0);
             let by_keys = reliefs || path.to_string().contains("relief");

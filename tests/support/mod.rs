@@ -65,7 +65,7 @@ pub fn terrain(planet: &Arc<Planet>) -> Arc<Terrain> {
 
 /// The surface for a view, after the builder has finished.
 pub fn settled(builder: &Builder, planet: &Arc<Planet>, view: &View) -> Arc<Surface> {
-    builder.request(planet, view);
+    builder.request(planet, view).unwrap();
     while builder.is_busy() {
         std::thread::sleep(Duration::from_millis(1));
     }

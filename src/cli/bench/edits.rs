@@ -98,7 +98,7 @@ impl Bench {
     /// statistics.
     pub(super) fn settle(&self, planet: &Arc<Planet>, view: &View) -> Option<([f64; 2], BuildStats)> {
         let (start, mut first_secs) = (Instant::now(), None);
-        self.builder.request(planet, view);
+        self.builder.request(planet, view).ok()?;
         while !self.builder.has_all_tiles() {
             let is_there = |surface: Arc<Surface>| Arc::ptr_eq(surface.terrain.planet(), planet);
             if first_secs.is_none() && self.builder.surface().is_some_and(is_there) {

@@ -6,7 +6,6 @@ use crate::sphere::spread;
 use crate::terrain::coarse::CellFields;
 use crate::terrain::{Detail, Scratch, Terrain};
 use crate::tiles::{MapWork, build_over};
-use crate::world::World;
 use crate::world::drainage;
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -33,7 +32,7 @@ const PATCHES: usize = 24;
 /// - `edits`: edits of the layers over the structure
 pub(super) fn measure(planet: &Planet) -> Result<Value, String> {
     let planet = Arc::new(planet.clone());
-    let draft = Terrain::try_draft(planet.clone(), &World::default()).map_err(|error| error.to_string())?;
+    let draft = Terrain::builder(planet.clone()).draft().map_err(|error| error.to_string())?;
     let mut runs = Vec::new();
     repeat(|| runs.push(solve(&draft)));
     runs.sort_by(|a, b| a.finest_ms.total_cmp(&b.finest_ms));
@@ -74,7 +73,7 @@ pub(super) fn measure(planet: &Planet) -> Result<Value, String> {
 fn draft_ms(before: &Terrain, planet: &Planet, edit: impl Fn(&mut Structure)) -> Result<Option<f64>, String> {
     let mut edited = planet.clone();
     edited.structure.iter_mut().for_each(edit);
-    let draft = Terrain::try_draft(Arc::new(edited), before.world()).map_err(|error| error.to_string())?;
+    let draft = Terrain::builder(Arc::new(edited)).reuse(before).draft().map_err(|error| error.to_string())?;
     let fields = CellFields::default();
     Ok(median(&repeat(|| drop(draft.with_draft_maps(&fields, &mut MapWork::default())))))
 }

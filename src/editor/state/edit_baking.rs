@@ -72,9 +72,9 @@ impl EditBaking {
 
     /// Whether a planet has the edits and the ground of the one that it was asked of.
     pub fn fits(&self, planet: &Arc<Planet>) -> bool {
-        let revision = |planet: &Arc<Planet>| Revision::try_new(planet.clone()).ok();
         let same_ground = || {
-            let (Some(before), Some(after)) = (revision(&self.asked), revision(planet)) else { return false };
+            let Ok(before) = Revision::try_new(self.asked.clone()) else { return false };
+            let Ok(after) = Revision::try_after(planet.clone(), Some(&before)) else { return false };
             let changed = after.changes_since(&before);
             !changed.contains(Stage::Height) && !changed.contains(Stage::Field)
         };

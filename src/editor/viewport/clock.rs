@@ -142,5 +142,5 @@ impl FrameMeter {
 /// The newest planet if a surface has its tiles, else the surface's own: it gives sea, air, clouds and light.
 pub(super) fn revision_over(newest: Option<&Revision>, surface: &Surface) -> Revision {
     let newest = newest.filter(|newest| same_tiles(&surface.terrain, newest));
-    newest.cloned().unwrap_or_else(|| surface.terrain.revision())
+    newest.cloned().unwrap_or_else(|| surface.terrain.revision().clone())
 }

@@ -139,14 +139,16 @@ impl Compare {
         // The same place on a planet of another radius.
         let mut view = shared.view;
         view.camera.position_planet_m *= self.planet.radius_m() / shared.radius_m;
-        self.builder.request(&self.planet, &view);
+        if let Err(error) = self.builder.request(&self.planet, &view) {
+            log::error!("{error}");
+        }
         if shared.touched {
             self.picture.refinement.touched(shared.now_secs);
         }
         let is_busy = self.builder.is_busy() || self.picture.is_behind(self.builder.surface().as_ref());
         if let Some(surface) = self.picture.surface().cloned() {
             let subject = Subject {
-                revision: surface.terrain.revision(),
+                revision: surface.terrain.revision().clone(),
                 surface,
                 view,
                 frozen: None,

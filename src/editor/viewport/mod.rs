@@ -366,12 +366,18 @@ impl Viewport {
         let mut wanted = self.frozen.unwrap_or(view);
         wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
         let views = self.pane_views(valid, wanted, &ground);
-        self.builder.request_views(valid, &views);
+        match Revision::try_after(valid.clone(), self.newest.as_ref()) {
+            Ok(newest) => {
+                self.builder.request_views(&newest, &views);
+                self.newest = Some(newest);
+            }
+            Err(error) => log::error!("{error}"),
+        }
         self.look_under_pointer(&response, &view, surface.as_ref());
         self.clicks.look((ui, &response), &self.tab, &view, surface.as_ref());
         let sky = surface.as_ref().and_then(|_| self.sky(&view));
         if let Some(surface) = surface.clone() {
-            self.draw(surface, valid, view, sky.clone(), pressed, now_secs);
+            self.draw(surface, view, sky.clone(), pressed, now_secs);
         }
         if let Some(wait) = self.picture.refines_after(&self.settings, now_secs).filter(|_| !self.is_busy()) {
             ui.ctx().request_repaint_after(wait);
@@ -448,18 +454,7 @@ impl Viewport {
         }
     }
 
-    fn draw(
-        &mut self,
-        surface: Arc<Surface>,
-        valid: &Arc<Planet>,
-        view: View,
-        sky: Option<Sky>,
-        drafts: bool,
-        now_secs: f64,
-    ) {
-        if !self.newest.as_ref().is_some_and(|newest| Arc::ptr_eq(newest.planet(), valid)) {
-            self.newest = Revision::try_new(valid.clone()).ok();
-        }
+    fn draw(&mut self, surface: Arc<Surface>, view: View, sky: Option<Sky>, drafts: bool, now_secs: f64) {
         // The sea, air and light of one planet over the ground of another would flash until the new tiles are there.
         let revision = revision_over(self.newest.as_ref(), &surface);
         let (settings, marked) = (&self.settings, self.tab.marked.clone());

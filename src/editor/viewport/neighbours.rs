@@ -198,7 +198,9 @@ impl Neighbours {
             let bytes = ((share * left_bytes as f64) as usize).max(LEAST_BYTES);
             left_bytes = left_bytes.saturating_sub(bytes);
             builder.set_budget_bytes(bytes);
-            builder.request(&planet, &scene.view_of(position_m, scene_from_body));
+            if let Err(error) = builder.request(&planet, &scene.view_of(position_m, scene_from_body)) {
+                log::error!("{error}");
+            }
             if let Some(surface) = builder.surface() {
                 shown.push(number);
                 bodies.push(around.neighbour(number, surface));

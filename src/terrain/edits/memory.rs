@@ -23,6 +23,8 @@ pub(super) type LatticeKey = u128;
 /// The memory of all edits that read the ground, as far as they were asked.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
+    /// The ground under all edits.
+    ground: Key,
     /// Heights of the nodes of smooth ground.
     pub(super) heights: Lattices<f64>,
     /// Waves of gullies.
@@ -30,19 +32,16 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    /// The memory of the terrains whose ground under all edits has this key. It forgets the lattices that are not among
-    /// `used`; terrains of earlier revisions find them out again where they still ask.
-    pub(super) fn of(ground: Key, used: &HashSet<LatticeKey>) -> Arc<Self> {
-        static LAST: Mutex<Option<(Key, Arc<Memory>)>> = Mutex::new(None);
-        let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-        let memory = match &*last {
-            Some((key, memory)) if *key == ground => memory.clone(),
-            _ => Arc::default(),
-        };
-        memory.heights.retain(used);
-        memory.cells.retain(used);
-        *last = Some((ground, memory.clone()));
-        memory
+    /// The memory of a terrain whose ground under all edits has this key: that of an earlier terrain over the same
+    /// ground. It forgets the lattices that are not among `used`; the earlier terrain finds them out again where it
+    /// still asks.
+    pub(super) fn after(before: &Arc<Self>, ground: Key, used: &HashSet<LatticeKey>) -> Arc<Self> {
+        if before.ground != ground {
+            return Arc::new(Self { ground, ..Self::default() });
+        }
+        before.heights.retain(used);
+        before.cells.retain(used);
+        before.clone()
     }
 }
 

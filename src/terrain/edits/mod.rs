@@ -67,7 +67,7 @@ use paint::{Paint, Places};
 use reading::{ReadBy, Reader};
 use roster::{Roster, slot_of};
 use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use widening::Widening;
 
 /// Edits around a place that read the ground, beyond which its bounds are those of the planet.
@@ -76,6 +76,9 @@ const MOST_READING: usize = 16;
 /// The edits of a planet that are on, compiled.
 #[derive(Clone)]
 pub(crate) struct Edits {
+    /// What they were compiled from.
+    world: World,
+    list: GroundEdits,
     roster: Roster,
     /// Those that change the ground.
     ground: Index,
@@ -162,37 +165,27 @@ struct World {
     sea_m: Option<f64>,
 }
 
-/// The edits that were compiled last, for the next revision: most of its edits are the same.
-struct Last {
-    world: World,
-    list: GroundEdits,
-    edits: Arc<Edits>,
-}
-
 impl Edits {
-    /// The edits of a planet. None if none is on.
-    pub(crate) fn new(planet: &Planet) -> Option<Arc<Self>> {
-        static LAST: Mutex<Option<Last>> = Mutex::new(None);
+    /// The edits of a planet, after those of an earlier revision: most of them are the same. None if none is on.
+    pub(crate) fn new(planet: &Planet, before: Option<&Arc<Self>>) -> Option<Arc<Self>> {
         if planet.edits.is_empty() {
             return None;
         }
         let world = World { radius_m: planet.radius_m(), sea_m: planet.sea_level_m() };
-        let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-        let before = last.as_ref().filter(|last| last.world == world);
-        let none = Self::none();
-        let edits = match before {
-            Some(same) if same.list.is_same(&planet.edits) => same.edits.over(planet),
-            Some(before) => Arc::new(before.edits.next(planet, world)),
-            None => Arc::new(none.next(planet, world)),
+        let edits = match before.filter(|before| before.world == world) {
+            Some(same) if same.list.is_same(&planet.edits) => same.over(planet),
+            Some(before) => Arc::new(before.next(planet)),
+            None => Arc::new(Self::none(world).next(planet)),
         };
-        *last = Some(Last { world, list: planet.edits.clone(), edits: edits.clone() });
         (edits.roster.len() > 0).then_some(edits)
     }
 
-    fn none() -> Self {
+    fn none(world: World) -> Self {
         let ground = Index::default();
         let key = ground.key_of_all();
         Self {
+            world,
+            list: GroundEdits::default(),
             roster: Roster::default(),
             ground,
             climate: Index::default(),
@@ -208,8 +201,9 @@ impl Edits {
     }
 
     /// Those of the next revision.
-    fn next(&self, planet: &Planet, world: World) -> Self {
+    fn next(&self, planet: &Planet) -> Self {
         profiling::scope!("compile edits");
+        let (world, list) = (self.world, planet.edits.clone());
         let compile =
             |shared: &Arc<Shared>| Arc::new(CompiledEdit::new(&shared.edit, world.radius_m, world.sea_m, None));
         let (mut roster, mut changes) = self.roster.next(&planet.edits, compile);
@@ -231,7 +225,7 @@ impl Edits {
         let reads = roster.reading().next().is_some();
         let masked = Masked::of(&roster);
         let key = ground.key_of_all();
-        Self { roster, key, ground, climate, places, clouds, masks, structural, courses, reads, masked }
+        Self { world, list, roster, key, ground, climate, places, clouds, masks, structural, courses, reads, masked }
     }
 
     /// The same edits on a planet whose biome table may be another.
@@ -243,8 +237,8 @@ impl Edits {
         Arc::new(Self { places, ..self.as_ref().clone() })
     }
 
-    /// The memory of edits that read ground which has this key before all edits.
-    pub(crate) fn memory(&self, ground: Key) -> Arc<Memory> {
+    /// The memory of edits that read ground which has this key before all edits, after that of an earlier terrain.
+    pub(crate) fn memory(&self, ground: Key, before: &Arc<Memory>) -> Arc<Memory> {
         if !self.reads {
             return Arc::default();
         }
@@ -252,7 +246,7 @@ impl Edits {
             let key = edit.lattice_key();
             std::iter::once(key).chain((0..gullies::MOST_OCTAVES).map(move |k| gullies::lattice_of(key, k)))
         });
-        Memory::of(ground, &lattices.collect())
+        Memory::after(before, ground, &lattices.collect())
     }
 
     /// The key of all edits of the ground. None if there is none.
