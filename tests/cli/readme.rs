@@ -1,11 +1,21 @@
 //! What README.md, the documents and the front page of the library promise: the program compiles, the preset loads,
-//! links lead to packed files, modules keep their order.
+//! links lead to packed files, files that are named exist, modules keep their order.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tellus::planet::Planet;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+/// Documents that are not in `docs`.
+const GUIDES: [&str; 7] = [
+    "README.md",
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "SECURITY.md",
+    "examples/README.md",
+    "planets/LICENSE.md",
+];
 
 fn read(file: &str) -> String {
     std::fs::read_to_string(Path::new(ROOT).join(file)).unwrap()
@@ -64,7 +74,7 @@ fn links_lead_to_packed_files() {
     assert!(listed.status.success(), "{}", String::from_utf8_lossy(&listed.stderr));
     let packed = String::from_utf8(listed.stdout).unwrap();
     let mut documents = documents(&root.join("docs"));
-    documents.push(root.join("README.md"));
+    documents.extend(GUIDES.map(|guide| root.join(guide)));
     let mut count = 0;
     for document in &documents {
         let text = std::fs::read_to_string(document).unwrap();
@@ -79,6 +89,24 @@ fn links_lead_to_packed_files() {
         }
     }
     assert!(count > 20, "{count} links");
+}
+
+/// Files and folders that the guides name in code, such as those of a recipe, exist.
+#[test]
+fn files_that_the_guides_name_exist() {
+    const FOLDERS: [&str; 9] =
+        ["docs/", "examples/", "include/", "planets/", "scripts/", "shaders/", "src/", "systems/", "tests/"];
+    let mut count = 0;
+    for guide in GUIDES {
+        let text = read(guide);
+        let in_code = text.lines().flat_map(|line| line.split('`').skip(1).step_by(2));
+        let is_path = |code: &&str| FOLDERS.iter().any(|folder| code.starts_with(folder)) && !code.contains(['*', ' ']);
+        for path in in_code.filter(is_path) {
+            assert!(Path::new(ROOT).join(path).exists(), "{guide} names {path}");
+            count += 1;
+        }
+    }
+    assert!(count > 100, "{count} files");
 }
 
 #[test]
