@@ -17,12 +17,14 @@ use crate::world::plates::Plates;
 use crate::world::weather::Weather;
 use crate::world::{Inputs, Slot, StructureInputs};
 use std::sync::Arc;
+use std::time::Instant;
 
 /// One state of a planet, compiled, and the content keys of what is made from it.
 #[derive(Clone, Debug)]
 pub struct Revision {
     planet: Arc<Planet>,
     pub(super) compiled: Arc<Compiled>,
+    compile_secs: f64,
 }
 
 impl Revision {
@@ -43,10 +45,16 @@ impl Revision {
         if let Some(same) = before.filter(|before| Arc::ptr_eq(&before.planet, &planet)) {
             return Ok(same.clone());
         }
+        let begun = Instant::now();
         planet.check()?;
         let edits = before.and_then(|before| before.compiled.edits.as_ref());
         let compiled = Arc::new(Compiled::new(&planet, edits));
-        Ok(Self { planet, compiled })
+        Ok(Self { planet, compiled, compile_secs: begun.elapsed().as_secs_f64() })
+    }
+
+    /// Time that it took to compile.
+    pub(crate) fn compile_secs(&self) -> f64 {
+        self.compile_secs
     }
 
     /// The ground edits, if any is on.

@@ -156,7 +156,7 @@ impl Worker {
         let planet_wanted = || shared.is_newest_planet(request.number) && !shared.is_paused();
         let (mut begun, mut limits) = (begun, [Duration::ZERO, NEXT_SLICE]);
         if is_first {
-            work.stats.compile_secs = begun.elapsed().as_secs_f64();
+            work.stats.compile_secs = request.revision.compile_secs() + begun.elapsed().as_secs_f64();
             limits = [GRACE, FIRST_SLICE];
         }
         // A draft is short work, and is shown even if a newer request is waiting. The first slice of a request has one
