@@ -325,8 +325,12 @@ pub(super) fn remove(folder: &Path) -> Result<(), BakeError> {
     let removed = std::fs::read_dir(folder).and_then(|entries| {
         for path in entries.map(|entry| entry.map(|entry| entry.path())) {
             let path = path?;
-            if is_own(&path) {
-                std::fs::remove_file(path)?;
+            if !is_own(&path) {
+                continue;
+            }
+            match std::fs::remove_file(path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+                _ => {}
             }
         }
         std::fs::remove_dir(folder)

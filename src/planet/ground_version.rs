@@ -26,8 +26,8 @@ pub fn ground_note(text: &str) -> Option<String> {
     let Some(found) = value(FIELD) else {
         return was_saved(text).then(|| {
             format!(
-                "an earlier Tellus saved this planet; its rivers and lakes may be other ones now. Save it to keep them \
-                 (ground version {now})"
+                "an earlier Tellus saved this planet; its rivers and lakes may be other ones now. Saved again, it says \
+                 that it is meant for this ground (version {now})"
             )
         });
     };
@@ -42,8 +42,8 @@ pub fn ground_note(text: &str) -> Option<String> {
             let changes: Vec<&str> =
                 CHANGES.iter().filter(|(number, _)| *number > version).map(|(_, change)| *change).collect();
             Some(format!(
-                "this planet was shaped by ground version {version}, and is by {now} now: {}. Save it to keep the new \
-                 ground; who needs the old one keeps that version of Tellus",
+                "this planet was shaped by ground version {version}, and is by {now} now: {}. Saved again, it says that \
+                 it is meant for the new ground; who needs the old one keeps that version of Tellus",
                 changes.join("; ")
             ))
         }

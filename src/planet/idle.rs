@@ -9,6 +9,8 @@ use super::{
     Structure, TableRows, Tool, Water,
 };
 
+const ONE_COPY: &str = "There is one copy only";
+
 /// Why a parameter has no effect: a sentence without a full stop. None: it has one.
 type Idle = Option<&'static str>;
 
@@ -20,9 +22,11 @@ impl Planet {
             [Field("layers"), Index(index), rest @ ..] => {
                 self.layers.get(*index).and_then(|layer| self.layer_idle(layer, rest))
             }
-            [Field("edits"), Index(index), Field(name)]
-            | [Field("edits"), Index(index), Field("tool"), Field(name)] => {
+            [Field("edits"), Index(index), Field(name)] => {
                 self.edits.get(*index).and_then(|edit| edit_idle(edit, name))
+            }
+            [Field("edits"), Index(index), Field("tool"), Field("random_turn_deg")] => {
+                self.edits.get(*index).and_then(|edit| when(edit.copies <= 1, ONE_COPY))
             }
             [Field("climate"), Field(name)] => self.climate_idle(&self.climate, name),
             [Field("biomes"), Field("palette"), Index(index), Field(name)] => {
@@ -89,7 +93,7 @@ fn edit_idle(edit: &GroundEdit, name: &str) -> Idle {
         "mask" => when(!edit.tool.reads_mask(), "Rivers and masks are not limited by masks"),
         "outside_mask" => when(edit.limiting_mask().is_none(), "The edit has no mask"),
         "copies" | "spread_km" | "smallest" if !edit.tool.is_stamp() => Some("Only stamps have copies"),
-        "spread_km" | "smallest" | "random_turn_deg" => when(edit.copies <= 1, "There is one copy only"),
+        "spread_km" | "smallest" => when(edit.copies <= 1, ONE_COPY),
         _ => None,
     }
 }

@@ -42,7 +42,7 @@ impl Revision {
     /// # Errors
     /// As [`Revision::try_new`].
     pub fn try_after(planet: Arc<Planet>, before: Option<&Revision>) -> Result<Self, InvalidPlanet> {
-        if let Some(same) = before.filter(|before| Arc::ptr_eq(&before.planet, &planet)) {
+        if let Some(same) = before.filter(|before| Arc::ptr_eq(&before.planet, &planet) || before.planet == planet) {
             return Ok(same.clone());
         }
         let begun = Instant::now();

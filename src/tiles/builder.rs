@@ -245,6 +245,8 @@ impl Builder {
             if !same_planet {
                 self.shared.newest_planet.store(number, Ordering::Relaxed);
             }
+            // An equal planet is compiled already.
+            let revision = before.filter(|_| same_planet).map_or(revision, |request| &request.revision);
             let (revision, views) = (revision.clone(), views.to_vec());
             state.views.resize_with(views.len(), Progress::default);
             state.request = Some(Request { revision, views, asked: Instant::now(), number });

@@ -141,6 +141,7 @@ impl Worker {
     /// their detail.
     fn slice(&mut self, shared: &Shared, request: &Request, index: usize) -> (Surface, bool) {
         let begun = Instant::now();
+        let is_compiled = self.terrain.as_ref().is_some_and(|terrain| Arc::ptr_eq(terrain.planet(), request.planet()));
         let mut terrain = self.compile(&request.revision);
         if std::mem::replace(&mut self.request, request.number) != request.number {
             self.cache.begin_request();
@@ -156,7 +157,8 @@ impl Worker {
         let planet_wanted = || shared.is_newest_planet(request.number) && !shared.is_paused();
         let (mut begun, mut limits) = (begun, [Duration::ZERO, NEXT_SLICE]);
         if is_first {
-            work.stats.compile_secs = request.revision.compile_secs() + begun.elapsed().as_secs_f64();
+            let before_secs = if is_compiled { 0.0 } else { request.revision.compile_secs() };
+            work.stats.compile_secs = before_secs + begun.elapsed().as_secs_f64();
             limits = [GRACE, FIRST_SLICE];
         }
         // A draft is short work, and is shown even if a newer request is waiting. The first slice of a request has one

@@ -448,7 +448,7 @@ fn many_changes_end_as_the_list_that_is_compiled_at_once() {
     let at_once = terrain(&edited);
     assert_eq!(step_by_step.heights_m(&dirs), at_once.heights_m(&dirs));
     assert!(step_by_step.samples(&dirs, Wanted::ALL) == at_once.samples(&dirs, Wanted::ALL));
-    assert!(at_once.revision().changes_since(&step_by_step.revision()).is_empty());
+    assert!(at_once.revision().changes_since(step_by_step.revision()).is_empty());
     let view = view(12.0, -70.0, 4e4);
     let all = |planet: &Planet| {
         let surface = build_now(&Arc::new(planet.clone()), &view).unwrap();

@@ -367,11 +367,11 @@ impl Viewport {
         wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
         let views = self.pane_views(valid, wanted, &ground);
         match Revision::try_after(valid.clone(), self.newest.as_ref()) {
-            Ok(newest) => {
-                self.builder.request_views(&newest, &views);
-                self.newest = Some(newest);
-            }
+            Ok(newest) => self.newest = Some(newest),
             Err(error) => log::error!("{error}"),
+        }
+        if let Some(newest) = &self.newest {
+            self.builder.request_views(newest, &views);
         }
         self.look_under_pointer(&response, &view, surface.as_ref());
         self.clicks.look((ui, &response), &self.tab, &view, surface.as_ref());

@@ -110,31 +110,18 @@ impl Block {
         Self { lines, streams, starts, lists, face, side, corner, buckets }
     }
 
-    /// A square of `buckets` by `buckets` buckets of this block alone, from one of them on.
-    pub(super) fn cropped(&self, [left, top]: [usize; 2], buckets: usize) -> Self {
-        let rows = (top..top + buckets).map(|y| y.saturating_sub(self.corner[1]).min(self.buckets - 1));
-        let rows: Vec<usize> = rows.collect();
-        let columns = (left..left + buckets).map(|x| x.saturating_sub(self.corner[0]).min(self.buckets - 1));
-        let columns: Vec<usize> = columns.collect();
-        let all = || rows.iter().flat_map(|y| columns.iter().map(move |x| self.list(y * self.buckets + x)));
-        // Pieces keep their order.
-        let mut numbers: Vec<u16> = all().flatten().copied().collect();
-        numbers.sort_unstable();
-        numbers.dedup();
-        let place = |number: &u16| numbers.binary_search(number).unwrap_or(0) as u16;
-        let mut starts = vec![0];
-        let mut lists = Vec::new();
-        for list in all() {
-            lists.extend(list.iter().map(place));
-            starts.push(lists.len() as u32);
-        }
+    /// One bucket of this block alone. Its pieces keep their order.
+    pub(super) fn cropped(&self, [x, y]: [usize; 2]) -> Self {
+        let within = |at: usize, corner: usize| at.saturating_sub(corner).min(self.buckets - 1);
+        let numbers = self.list(within(y, self.corner[1]) * self.buckets + within(x, self.corner[0]));
+        let count = numbers.len() as u16;
         Self {
             lines: numbers.iter().map(|&number| self.lines[usize::from(number)]).collect(),
             streams: numbers.iter().map(|&number| self.streams[usize::from(number)]).collect(),
-            starts,
-            lists,
-            corner: [left, top],
-            buckets,
+            starts: vec![0, u32::from(count)],
+            lists: (0..count).collect(),
+            corner: [x, y],
+            buckets: 1,
             ..*self
         }
     }

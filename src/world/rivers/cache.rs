@@ -126,26 +126,41 @@ impl<K: Copy + Ord, V: Clone> Shelf<K, V> {
         if let Some((_, old_bytes, _)) = self.kept.insert(key, (value, bytes, self.clock)) {
             self.bytes -= old_bytes;
         }
-        while self.bytes > most_bytes
-            && let Some(oldest) = self.kept.iter().min_by_key(|(_, (.., used))| *used).map(|(key, _)| *key)
-            && let Some((_, bytes, _)) = self.kept.remove(&oldest)
-        {
-            self.bytes -= bytes;
+        // An eighth at once: few passes over all.
+        while self.bytes > most_bytes && !self.kept.is_empty() {
+            let mut times: Vec<u64> = self.kept.values().map(|(.., used)| *used).collect();
+            let eighth = times.len() / 8;
+            let (_, &mut newest, _) = times.select_nth_unstable(eighth);
+            let bytes = &mut self.bytes;
+            self.kept.retain(|_, (_, size, used)| {
+                let stays = *used > newest;
+                *bytes -= if stays { 0 } else { *size };
+                stays
+            });
         }
     }
 }
 
+/// How many spots of a thread are remembered, so that a second point near one has the whole block built.
+const LATELY: usize = 64;
+
 /// The blocks that one thread uses.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Cache {
     /// The rivers that the blocks belong to.
     owner: u64,
     /// The block of each level that was used last, or that of a spot, with a number of its own.
     pub(super) current: [Option<(u64, Arc<Block>)>; LEVELS],
     /// The finest blocks around the spots that were made last, with the number of their levels.
-    pub(super) lately: [Option<(usize, u64)>; 8],
+    pub(super) lately: [Option<(usize, u64)>; LATELY],
     /// Whether the points of the batch may stand alone.
     pub(super) is_spread: bool,
+}
+
+impl Default for Cache {
+    fn default() -> Self {
+        Self { owner: 0, current: Default::default(), lately: [None; LATELY], is_spread: false }
+    }
 }
 
 impl Cache {

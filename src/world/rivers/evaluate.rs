@@ -5,9 +5,10 @@ use super::block::{BLOCK, Block, Square, block_of};
 use super::cache::{Cache, LEVELS, Spot};
 use super::channel::Cut;
 use super::grid::{Cell, FacePlace, Grid, RATIO};
-use super::net::NODES;
+use super::net::{NODES, REACHES};
 use super::reach::FREEBOARD;
 use super::shore::{Lakeside, sunk};
+use super::window::Window;
 use super::{River, RiverPoint, Rivers};
 use crate::simd::{Simd, for_each_simd};
 use glam::DVec3;
@@ -22,7 +23,8 @@ const RELIEF_RATIO: f64 = 0.7;
 pub(super) const RELIEF: f64 = 1.0;
 /// The steepest hillslope: a tangent of about 35 degrees.
 const STEEPEST: f64 = 0.7;
-/// Steps from a point within which no land is, where the sea is open: farther than reaches near the point begin.
+/// Cells of the solved drainage around a point of the open sea whose ground is looked at: farther than those on whose
+/// ground its nodes lie.
 const OPEN_SEA: f64 = 8.0;
 /// The relief of a level on the reaches of the level before, by that on its ridges.
 const LEAST_SHARE: f64 = 0.2;
@@ -108,25 +110,29 @@ impl Rivers {
         }
     }
 
-    /// Whether the sea covers all cells from which reaches near a direction could begin.
-    fn is_open_sea(&self, dir: DVec3) -> bool {
-        let far_rad = OPEN_SEA * self.trunks.grid.width_rad(dir);
+    /// Whether no reach of any level is near a direction: all ground around lies under the sea, and no cell has a reach
+    /// of the solved drainage, as land below the level of the sea has. `square`: the coarsest cells that a spot needs.
+    fn is_open_sea(&self, dir: DVec3, square: &Square) -> bool {
+        let grid = &self.trunks.grid;
+        let far_rad = OPEN_SEA * grid.width_rad(dir);
+        let has_reach = |(cell, _): &(Cell, u8)| self.trunks.ends(grid.index(*cell) as usize).is_some();
         self.trunks.sea_level_m.is_some_and(|sea_m| self.bounds.near(dir, far_rad).1 < sea_m)
+            && !Window::new(grid, square, REACHES).cells.iter().any(has_reach)
     }
 
     /// The pieces near a cell, from blocks that hold no more than it needs. None near an edge of a face.
     fn new_spot(&self, cell: Cell, dir: DVec3, levels: usize) -> Option<Spot> {
         let mut squares = [Square::of_cell(cell); LEVELS];
-        if self.is_open_sea(dir) {
+        for level in (1..levels).rev() {
+            squares[level - 1] = squares[level].parents(&self.grids[level], NODES)?;
+        }
+        if self.is_open_sea(dir, &squares[0]) {
             for level in (1..levels).rev() {
                 squares[level - 1] = squares[level].parents(&self.grids[level], 0)?;
             }
             return Some(std::array::from_fn(|level| {
                 (level < levels).then(|| Arc::new(Block::new(&self.grids[level], &squares[level], &[])))
             }));
-        }
-        for level in (1..levels).rev() {
-            squares[level - 1] = squares[level].parents(&self.grids[level], NODES)?;
         }
         let mut cache = Cache::default();
         let mut parent: Option<Arc<Block>> = None;
@@ -146,7 +152,7 @@ impl Rivers {
                 block.clone()
             } else {
                 let per_bucket = RATIO.pow((levels - 2 - level) as u32);
-                Arc::new(block.cropped([cell.x / per_bucket, cell.y / per_bucket], 1))
+                Arc::new(block.cropped([cell.x / per_bucket, cell.y / per_bucket]))
             });
         }
         Some(spot)
@@ -274,9 +280,11 @@ impl Rivers {
     }
 
     /// Whether points are so few or so far apart that blocks would be built for one point each.
-    fn is_spread(&self, dirs: &[DVec3], levels: usize) -> bool {
-        let (Some(grid), [first, second, ..]) = (self.grids[..levels].last(), dirs) else { return true };
-        first.distance_squared(*second) > (BLOCK as f64 * grid.width_rad(*first)).powi(2)
+    pub(super) fn is_spread(&self, dirs: &[DVec3], levels: usize) -> bool {
+        let (Some(grid), [first, ..]) = (self.grids[..levels].last(), dirs) else { return true };
+        let block2 = (BLOCK as f64 * grid.width_rad(*first)).powi(2);
+        let far = dirs.windows(2).filter(|pair| pair[0].distance_squared(pair[1]) > block2).count();
+        2 * far >= dirs.len() - 1
     }
 
     /// Evaluates points near each other, in order: one answer for each direction.

@@ -35,6 +35,7 @@ impl Rivers {
         out: &mut Vec<Flow>,
     ) {
         cache.belongs_to(self.number);
+        cache.is_spread = self.is_spread(dirs, levels);
         out.clear();
         out.extend(dirs.iter().map(|&dir| self.flow(dir, levels, spacing_rad, cache)));
     }
