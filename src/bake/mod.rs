@@ -106,7 +106,7 @@ pub struct Bake {
 /// How much of a structure is in a map. It makes no difference to a planet without one.
 ///
 /// Each river of a structure is made when a point near it asks. Where pixels are farther apart than valleys, hardly two
-/// of them share a valley, and all detail takes fifty times as long: see [`Bake::expected`].
+/// of them share a valley, and all detail takes far longer: see [`Bake::expected`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Detail {

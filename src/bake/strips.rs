@@ -117,7 +117,7 @@ impl Strips {
     }
 
     pub(super) fn path(&self, number: u32) -> PathBuf {
-        self.folder.join(format!("{number:05}.{ENDING}"))
+        self.folder.join(format!("{number:05}{ENDING}"))
     }
 
     /// Whether a strip is there whole.
@@ -313,14 +313,14 @@ fn damaged() -> io::Error {
 }
 
 /// Ending of the file of a strip.
-const ENDING: &str = "strip";
+const ENDING: &str = ".strip";
 
 /// Removes the strips of a bake that is done, and their folder if nothing else is in it.
 pub(super) fn remove(folder: &Path) -> Result<(), BakeError> {
     let is_own = |path: &Path| {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        let is_number = |stem: &str| !stem.is_empty() && stem.bytes().all(|b| b.is_ascii_digit());
-        is_unfinished(name) || name.strip_suffix(ENDING).and_then(|name| name.strip_suffix('.')).is_some_and(is_number)
+        let stem = name.strip_suffix(ENDING).unwrap_or_default();
+        is_unfinished(name) || (!stem.is_empty() && stem.bytes().all(|byte| byte.is_ascii_digit()))
     };
     let removed = std::fs::read_dir(folder).and_then(|entries| {
         for path in entries.map(|entry| entry.map(|entry| entry.path())) {

@@ -39,10 +39,10 @@ mod system;
 mod tiles;
 mod work;
 
-use crate::planet::Planet;
 use crate::planet::picture::is_contained;
 use crate::planet::printable::printable;
 use crate::planet::sources::Sources;
+use crate::planet::{LoadError, Planet, ground_note};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use logging::Logging;
 use std::any::TypeId;
@@ -204,16 +204,16 @@ fn edit(_: Option<PathBuf>, _: &Logging) -> Result<(), Failure> {
 }
 
 fn load(path: &Path) -> Result<Planet, Failure> {
-    let (planet, note) = Planet::load_noted(path).map_err(|error| Failure::Message(error.to_string()))?;
-    tell_note(path, note);
-    Ok(planet)
+    load_noted(path).map_err(|error| Failure::Message(error.to_string()))
 }
 
-/// Says the note of a preset, if there is one.
-fn tell_note(path: &Path, note: Option<String>) {
-    if let Some(note) = note {
+/// Loads a preset. A note says so if its ground is other here than where it was saved.
+fn load_noted(path: &Path) -> Result<Planet, LoadError> {
+    let (planet, text) = Planet::load_with_text(path)?;
+    if let Some(note) = ground_note(&text) {
         tell(&format!("note: {}: {note}", path.display()));
     }
+    Ok(planet)
 }
 
 /// A planet, and the files that no output may replace.

@@ -5,7 +5,7 @@ use super::param::ParamPath;
 use super::picture::folder_of;
 use super::problem::Problem;
 use super::root::Root;
-use super::{Planet, beside, explain, ground_note, locate, migrate, text, validate};
+use super::{Planet, beside, explain, locate, migrate, text, validate};
 use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -59,17 +59,17 @@ pub struct SaveError {
 impl Planet {
     /// Reads and checks a preset and the pictures it refers to.
     pub fn load(path: impl AsRef<Path>) -> Result<Planet, LoadError> {
-        Self::load_noted(path.as_ref()).map(|(planet, _)| planet)
+        Self::load_with_text(path.as_ref()).map(|(planet, _)| planet)
     }
 
-    /// As [`Planet::load`], with [`ground_note`].
-    pub(crate) fn load_noted(path: &Path) -> Result<(Planet, Option<String>), LoadError> {
+    /// As [`Planet::load`], with the text of the preset.
+    pub(crate) fn load_with_text(path: &Path) -> Result<(Planet, String), LoadError> {
         let (file, text) = (path.display().to_string(), read_text(path)?);
         let planet = Self::placed(&file, &text, &mut beside::in_folder_of(path), |planet| {
             planet.set_folder(&folder_of(path));
             planet.load_pictures()
         })?;
-        Ok((planet, ground_note(&text)))
+        Ok((planet, text))
     }
 
     /// Reads and checks a preset without its pictures: their layers are flat until [`Planet::load_pictures`].

@@ -9,7 +9,7 @@ use super::{locate, text::SAVED};
 pub const GROUND_VERSION: u32 = 5;
 
 /// What each version changed, the newest first.
-const CHANGES: [(u32, &str); 2] = [
+const CHANGES: &[(u32, &str)] = &[
     (5, "lakes have a rim where lower ground lies beside them, and islands where they are shallow"),
     (4, "layers over a structure end at its rivers, and wide rivers have their bed on their whole width"),
 ];
@@ -42,8 +42,8 @@ pub fn ground_note(text: &str) -> Option<String> {
             let changes: Vec<&str> =
                 CHANGES.iter().filter(|(number, _)| *number > version).map(|(_, change)| *change).collect();
             Some(format!(
-                "this planet was shaped by ground version {version}, and is by {now} now: {}. Saved again, it says that \
-                 it is meant for the new ground; who needs the old one keeps that version of Tellus",
+                "this planet was shaped by ground version {version}, and is by {now} now: {}. Saved again, it says \
+                 that it is meant for the new ground; who needs the old one keeps that version of Tellus",
                 changes.join("; ")
             ))
         }

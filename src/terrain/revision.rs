@@ -43,7 +43,7 @@ impl Revision {
     /// As [`Revision::try_new`].
     pub fn try_after(planet: Arc<Planet>, before: Option<&Revision>) -> Result<Self, InvalidPlanet> {
         if let Some(same) = before.filter(|before| Arc::ptr_eq(&before.planet, &planet) || before.planet == planet) {
-            return Ok(same.clone());
+            return Ok(Self { planet, ..same.clone() });
         }
         let begun = Instant::now();
         planet.check()?;
@@ -52,7 +52,12 @@ impl Revision {
         Ok(Self { planet, compiled, compile_secs: begun.elapsed().as_secs_f64() })
     }
 
-    /// Time that it took to compile.
+    /// Whether two revisions share what is compiled: that of equal planets.
+    pub(crate) fn is_same(&self, other: &Revision) -> bool {
+        Arc::ptr_eq(&self.compiled, &other.compiled)
+    }
+
+    /// Time that it took to compile, seconds.
     pub(crate) fn compile_secs(&self) -> f64 {
         self.compile_secs
     }

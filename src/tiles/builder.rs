@@ -156,12 +156,6 @@ pub(super) struct Request {
     pub(super) number: u64,
 }
 
-impl Request {
-    pub(super) fn planet(&self) -> &Arc<Planet> {
-        self.revision.planet()
-    }
-}
-
 impl Shared {
     pub(super) fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
@@ -235,11 +229,10 @@ impl Builder {
     /// Requests a planet that is compiled, as seen from several views, such as a main picture and a mirror. A view is
     /// known by its place in the list.
     pub fn request_views(&self, revision: &Revision, views: &[View]) {
-        let planet = revision.planet();
         let mut state = self.shared.lock();
         let before = state.request.as_ref();
-        let same_planet =
-            before.is_some_and(|request| Arc::ptr_eq(request.planet(), planet) || request.planet() == planet);
+        let is_same = |before: &Revision| before.is_same(revision) || before.planet() == revision.planet();
+        let same_planet = before.is_some_and(|request| is_same(&request.revision));
         if !same_planet || before.is_some_and(|request| request.views != views) {
             let number = self.shared.newest.fetch_add(1, Ordering::Relaxed) + 1;
             if !same_planet {

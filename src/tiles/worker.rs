@@ -127,7 +127,7 @@ impl Worker {
                 state.views.iter_mut().for_each(|view| view.finished = request.number);
             }
             if let Some(why) = &gone_wrong {
-                log::error!("{} could not be built: {why}", request.planet().name);
+                log::error!("{} could not be built: {why}", request.revision.planet().name);
             }
             state.error = gone_wrong.map(|why| format!("This planet could not be built: {why}"));
             state.memory = self.cache.memory();
@@ -141,7 +141,7 @@ impl Worker {
     /// their detail.
     fn slice(&mut self, shared: &Shared, request: &Request, index: usize) -> (Surface, bool) {
         let begun = Instant::now();
-        let is_compiled = self.terrain.as_ref().is_some_and(|terrain| Arc::ptr_eq(terrain.planet(), request.planet()));
+        let is_compiled = self.terrain.as_ref().is_some_and(|terrain| terrain.revision().is_same(&request.revision));
         let mut terrain = self.compile(&request.revision);
         if std::mem::replace(&mut self.request, request.number) != request.number {
             self.cache.begin_request();
@@ -213,7 +213,7 @@ impl Worker {
     fn compile(&mut self, revision: &Revision) -> Arc<Terrain> {
         profiling::scope!("compile");
         let terrain = match &self.terrain {
-            Some(terrain) if Arc::ptr_eq(terrain.planet(), revision.planet()) => return terrain.clone(),
+            Some(terrain) if terrain.revision().is_same(revision) => return terrain.clone(),
             Some(before) => Terrain::draft_after(revision, before),
             None => Terrain::draft(revision, &World { store: self.maps.clone(), ..World::default() }, Arc::default()),
         };

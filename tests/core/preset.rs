@@ -97,8 +97,9 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         // --- names
         (
             "(\n    version: 3,\n    sead: 2,\n)",
-            "f.ron:3:5: sead: there is no field `sead` here; did you mean `seed`? use `version`, `ground_version`, `name`, `seed`, \
-             `radius_km`, `precision`, `settlements`, `height_curve`, `star`, `layers`, `edits`, `climate`, `biomes`, `structure`, `water`, `atmosphere`, `clouds`, \
+            "f.ron:3:5: sead: there is no field `sead` here; did you mean `seed`? use `version`, \
+             `ground_version`, `name`, `seed`, `radius_km`, `precision`, `settlements`, `height_curve`, `star`, \
+             `layers`, `edits`, `climate`, `biomes`, `structure`, `water`, `atmosphere`, `clouds`, \
              `giant`, `rings`, `editor`",
         ),
         (
@@ -237,7 +238,8 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         ),
         (
             "(version: 3, layers: [(curve: [(0, 0, 1), (1, 5)])])",
-            "f.ron:1:39: layers[0].curve[0]: too many numbers; use two for each point: `(from, to)`; decimals have a point: 0.5",
+            "f.ron:1:39: layers[0].curve[0]: too many numbers; use two for each point: `(from, to)`; \
+             decimals have a point: 0.5",
         ),
         (
             "(version: 3, layers: [(curve: [(0)])])",

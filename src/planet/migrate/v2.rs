@@ -24,7 +24,8 @@ frozen! {
         clouds: Option<Clouds> = None,
         editor: Option<EditorNotes> = None,
     } adding {
-        ground_version: None, edits: GroundEdits::default(), precision: Precision::Classic, structure: None, settlements: 0.0, giant: None, rings: None
+        ground_version: None, edits: GroundEdits::default(),
+        precision: Precision::Classic, structure: None, settlements: 0.0, giant: None, rings: None
     }
 }
 

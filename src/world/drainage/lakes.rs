@@ -4,7 +4,7 @@ use super::route::Routes;
 use super::{DISCHARGE_UNIT, Lake, Level};
 use crate::world::cells::Cells;
 use rayon::prelude::*;
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// The ground, the lake of each cell (1-based; 0 is none), and the lakes.
@@ -29,24 +29,6 @@ fn floor_m(level: &Level<'_>, cell: usize, bed_m: f64) -> f64 {
 /// Depth below the surface of a lake at which ground beside it is lower ground, metres. Beds on the way out of a lake
 /// are raised a little above those that were carved.
 const LEAK_M: f64 = 5.0;
-
-/// A height that can be ordered.
-#[derive(PartialEq)]
-struct Height(f64);
-
-impl Eq for Height {}
-
-impl PartialOrd for Height {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Height {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
 
 impl Lakes {
     /// Finds the lakes. `beds_m` is raised to the surface of each lake, and beyond it so far that it still falls along
@@ -156,7 +138,7 @@ impl Lakes {
             let (mut lost, mut level_m, mut area_sr) = (0.0, beds_m[sink as usize], 0.0);
             let mut wet = Vec::new();
             let number = self.lakes.len() as u32 + 1;
-            // Dry cells beside the lake, the lowest first.
+            // Cells beside the lake, the lowest first.
             let mut rim = BinaryHeap::new();
             let above =
                 |cell: u32, beds_m: &[f64]| ((beds_m[cell as usize] - beds_m[sink as usize]).max(0.0) * 1024.0) as u64;
@@ -172,17 +154,15 @@ impl Lakes {
                 // All lower ground of this basin is wet by now. At the level of this cell, water would run over into
                 // another basin beyond the rim.
                 let next_m = level_m.max(beds_m[cell as usize]);
-                let beside =
-                    cells.around(cell as usize).into_iter().filter(|&other| self.lake[other as usize] != number);
-                rim.extend(beside.map(|other| Reverse((Height(beds_m[other as usize]), other))));
-                while rim
-                    .peek()
-                    .is_some_and(|Reverse((_, other))| *other == cell || self.lake[*other as usize] == number)
-                {
+                for other in cells.around(cell as usize) {
+                    rim.push(Reverse(((beds_m[other as usize] * 1024.0) as i64, other)));
+                }
+                let is_wet = |other: u32| other == cell || self.lake[other as usize] == number;
+                while rim.peek().is_some_and(|Reverse((_, other))| is_wet(*other)) {
                     rim.pop();
                 }
-                let lowest = rim.peek().map(|Reverse((height, _))| height.0);
-                if !wet.is_empty() && lowest.is_some_and(|lowest_m| lowest_m <= next_m - LEAK_M) {
+                let lowest_m = rim.peek().map(|Reverse((_, other))| beds_m[*other as usize]);
+                if !wet.is_empty() && lowest_m.is_some_and(|lowest_m| lowest_m <= next_m - LEAK_M) {
                     break;
                 }
                 lost += dry_m * level.areas_sr[cell as usize];

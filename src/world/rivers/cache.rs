@@ -142,10 +142,10 @@ impl<K: Copy + Ord, V: Clone> Shelf<K, V> {
 }
 
 /// How many spots of a thread are remembered, so that a second point near one has the whole block built.
-const LATELY: usize = 64;
+const LATELY: usize = 32;
 
 /// The blocks that one thread uses.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Cache {
     /// The rivers that the blocks belong to.
     owner: u64,
@@ -155,12 +155,6 @@ pub(crate) struct Cache {
     pub(super) lately: [Option<(usize, u64)>; LATELY],
     /// Whether the points of the batch may stand alone.
     pub(super) is_spread: bool,
-}
-
-impl Default for Cache {
-    fn default() -> Self {
-        Self { owner: 0, current: Default::default(), lately: [None; LATELY], is_spread: false }
-    }
 }
 
 impl Cache {

@@ -73,24 +73,24 @@ impl Rivers {
     /// Makes the blocks of the first levels at a place current. `is_asked`: for a point that was asked for, which may
     /// stand alone, not for a node of a block that is built.
     #[inline(always)]
-    pub(super) fn find_blocks(&self, at: (DVec3, &FacePlace), levels: usize, is_asked: bool, cache: &mut Cache) {
+    pub(super) fn find_blocks(&self, place: &FacePlace, levels: usize, is_asked: bool, cache: &mut Cache) {
         let is_current =
-            |current: &Option<(u64, Arc<Block>)>| current.as_ref().is_some_and(|(_, block)| block.covers(at.1));
+            |current: &Option<(u64, Arc<Block>)>| current.as_ref().is_some_and(|(_, block)| block.covers(place));
         if !cache.current[..levels].iter().all(is_current) {
             if is_asked && cache.is_spread {
-                self.find_spot(at, levels, cache);
+                self.find_spot(place, levels, cache);
             } else {
-                self.find_whole(at.1, levels, cache);
+                self.find_whole(place, levels, cache);
             }
         }
     }
 
-    /// The same for a point that may stand alone: by the spot of its cell, which is made if the block around it was not
-    /// asked for lately. A second point in that block has it built as a whole.
+    /// Makes blocks current for a point that may stand alone: those of the spot of its cell. A spot is made if no other
+    /// spot of the thread lay in the same block lately. Otherwise the whole block is built.
     #[inline(never)]
-    fn find_spot(&self, at: (DVec3, &FacePlace), levels: usize, cache: &mut Cache) {
+    fn find_spot(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
         let Some(finest) = self.grids[..levels].last() else { return };
-        let cell = finest.cell_at(at.1);
+        let cell = finest.cell_at(place);
         let key = (levels, finest.index(cell));
         let spot = self.blocks.spot(key).or_else(|| {
             let block = (levels, block_of(finest, cell));
@@ -99,19 +99,20 @@ impl Rivers {
             }
             cache.lately.rotate_right(1);
             cache.lately[0] = Some(block);
-            let spot = self.new_spot(cell, at.0, levels)?;
+            let spot = self.new_spot(cell, levels)?;
             self.blocks.keep_spot(key, &spot);
             Some(spot)
         });
         match spot {
             // Numbers of blocks are far smaller.
             Some(spot) => cache.current = spot.map(|block| Some((key.1 | 1 << 63, block?))),
-            None => self.find_whole(at.1, levels, cache),
+            None => self.find_whole(place, levels, cache),
         }
     }
 
-    /// Whether no reach of any level is near a direction: all ground around lies under the sea, and no cell has a reach
-    /// of the solved drainage, as land below the level of the sea has. `square`: the coarsest cells that a spot needs.
+    /// Whether no reach of any level is near a cell in a direction: all ground around lies under the sea, and no cell
+    /// has a reach of the solved drainage, as land below the level of the sea has. `square`: the coarsest cells that the
+    /// spot needs.
     fn is_open_sea(&self, dir: DVec3, square: &Square) -> bool {
         let grid = &self.trunks.grid;
         let far_rad = OPEN_SEA * grid.width_rad(dir);
@@ -121,12 +122,13 @@ impl Rivers {
     }
 
     /// The pieces near a cell, from blocks that hold no more than it needs. None near an edge of a face.
-    fn new_spot(&self, cell: Cell, dir: DVec3, levels: usize) -> Option<Spot> {
+    fn new_spot(&self, cell: Cell, levels: usize) -> Option<Spot> {
         let mut squares = [Square::of_cell(cell); LEVELS];
         for level in (1..levels).rev() {
             squares[level - 1] = squares[level].parents(&self.grids[level], NODES)?;
         }
-        if self.is_open_sea(dir, &squares[0]) {
+        let finest = self.grids[..levels].last()?;
+        if self.is_open_sea(finest.node(cell), &squares[0]) {
             for level in (1..levels).rev() {
                 squares[level - 1] = squares[level].parents(&self.grids[level], 0)?;
             }
@@ -158,7 +160,7 @@ impl Rivers {
         Some(spot)
     }
 
-    /// The same with whole blocks, which are built if they are not there.
+    /// Makes whole blocks current. They are built if they are not there.
     fn find_whole(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
         // Building a block moves the current blocks of coarser levels, so that the search starts again.
         loop {
@@ -188,7 +190,7 @@ impl Rivers {
         mut cut: Option<(&mut Cut, &mut [Jet; LEVELS + 1])>,
     ) -> Ground {
         let face_place = FacePlace::new(dir);
-        self.find_blocks((dir, &face_place), levels, cut.is_some(), cache);
+        self.find_blocks(&face_place, levels, cut.is_some(), cache);
         let tangential = |(value, gradient): (f64, DVec3)| Jet { value, gradient: gradient - dir * gradient.dot(dir) };
         let [heights, reliefs] = &self.rasters;
         let place = heights.place(dir);

@@ -42,7 +42,7 @@ impl Rivers {
 
     fn flow(&self, dir: DVec3, levels: usize, spacing_rad: f64, cache: &mut Cache) -> Flow {
         let place = FacePlace::new(dir);
-        self.find_blocks((dir, &place), levels, true, cache);
+        self.find_blocks(&place, levels, true, cache);
         let mut flow = Flow::default();
         for (level, block) in cache.current[..levels].iter().enumerate() {
             let Some((_, block)) = block else { continue };
