@@ -110,9 +110,9 @@ impl Rivers {
         }
     }
 
-    /// Whether no reach of any level is near a cell in a direction: all ground around lies under the sea, and no cell
-    /// has a reach of the solved drainage, as land below the level of the sea has. `square`: the coarsest cells that the
-    /// spot needs.
+    /// Whether no reach of any level is near a cell in a direction. All ground around lies under the sea, and no cell
+    /// has a reach of the solved drainage, as land below the level of the sea has. `square`: the coarsest cells that
+    /// the spot needs.
     fn is_open_sea(&self, dir: DVec3, square: &Square) -> bool {
         let grid = &self.trunks.grid;
         let far_rad = OPEN_SEA * grid.width_rad(dir);
