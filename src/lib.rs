@@ -37,6 +37,7 @@
 //! - [`rings`]: rings along the radius: optical depth, light, shadow
 //! - [`giant`]: bands, jets and storms of gas giants
 //! - [`lod`]: which nodes are drawn for a view
+//! - [`life`]: plants, stones and other objects on the ground: where they stand, and their meshes
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `noise_tile`: the noise of patterns on the ground and of clouds, as the renderer samples it
 //! - `made`: what made a file, and whether it is whole: sets of files that are made part by part
@@ -58,6 +59,7 @@ pub use rayon;
 pub mod atmosphere;
 pub mod clouds;
 pub mod giant;
+pub mod life;
 pub mod lod;
 #[cfg(any(feature = "bake", feature = "render"))]
 mod made;

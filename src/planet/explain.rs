@@ -6,7 +6,7 @@
 use super::param::{Domain, Form, Param};
 use super::printable::printable;
 use super::root::Root;
-use super::{Mask, Problem, Shape, Tool, locate};
+use super::{Mask, Problem, Shape, Tool, life, locate};
 use ron::error::{Error, SpannedError};
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
@@ -281,11 +281,14 @@ fn in_words(param: &Param, names: &[&str]) -> String {
         }
         Domain::Flag => "`true` or `false`".to_owned(),
         Domain::Letter | Domain::BiomeKey => "a letter in single quotes: `'a'`".to_owned(),
+        Domain::BiomeKeys => "keys of biomes in double quotes: `\"fw\"`".to_owned(),
         Domain::Text { .. } | Domain::MaskName { .. } => "text in double quotes: `\"text\"`".to_owned(),
         Domain::Curve { .. } => format!("a list of points: `[(-1, 0), (1, 2)]`, {}", param.range_text()),
         Domain::File { .. } => "a path in double quotes: `\"maps/heights.png\"`".to_owned(),
         // A kind carries its own parameters: `Fbm(...)`.
-        Domain::Choice if [Shape::KIND.name, Mask::KIND.name, Tool::KIND.name].contains(&param.name) => {
+        Domain::Choice
+            if [Shape::KIND.name, Mask::KIND.name, Tool::KIND.name, life::Form::KIND.name].contains(&param.name) =>
+        {
             format!("one of {}", list(names, "(...)"))
         }
         Domain::Choice => format!("one of {}", list(names, "")),

@@ -18,6 +18,7 @@
 //! - `printable`: text of strangers, as it may be shown
 //! - `root`: what a whole file holds: a planet or a system
 //! - [`structure`]: plates, weather and rivers of a preset
+//! - [`life`]: populations of plants, stones and other objects
 //! - [`edits`]: changes of the ground at a place, made by hand
 //! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
 //! - [`watch`]: a preset that changes on disk while a game runs
@@ -40,6 +41,7 @@ mod idle;
 pub mod key;
 pub(crate) mod kinds;
 pub mod layers;
+pub mod life;
 pub(crate) mod locate;
 pub mod locks;
 pub mod masks;
@@ -79,6 +81,7 @@ pub use giant::{Giant, STARTING_GIANTS};
 pub use ground_version::{GROUND_VERSION, ground_note};
 pub use key::Key;
 pub use layers::{Blend, Layer};
+pub use life::{Form, MAX_POPULATIONS, Population};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, PaintedMask, SlopeMask};
 pub use notes::{Bookmark, EditorNotes};
 pub use parts::{Atmosphere, Biomes, CLIMATE_BELTS, Climate, Clouds, Star, TableBlend, TableRows, Water};
@@ -145,6 +148,8 @@ params! {
         layers: Vec<Layer> = Vec::new();
         /// Changes of the ground made by hand, applied from first to last after all layers.
         edits: GroundEdits = GroundEdits::default();
+        /// Plants, stones and other objects that stand on the ground.
+        life: Vec<Population> = Vec::new();
         /// Temperature and moisture over the globe.
         climate: Climate = Climate::default();
         /// The biome table, its palette and the surface rules.

@@ -15,7 +15,9 @@ mod structure;
 
 use super::locks::Locks;
 use super::param::{ParamPath, Stage};
-use super::{Atmosphere, Biomes, Climate, Clouds, GroundEdits, Layer, Mask, Planet, Precision, Star, Water, validate};
+use super::{
+    Atmosphere, Biomes, Climate, Clouds, GroundEdits, Layer, Mask, Planet, Population, Precision, Star, Water, validate,
+};
 use dice::{Dice, three_digits};
 
 /// A random planet. Always valid; the same seed gives the same planet.
@@ -67,6 +69,7 @@ pub fn random_of(kind: Option<Kind>, seed: u64) -> Planet {
         star: Star { latitude_deg: dice.rounded(-24.0, 24.0), color: star_color(&mut dice), ..Star::default() },
         layers,
         edits: GroundEdits::default(),
+        life: Vec::new(),
         biomes: grounds::biomes(kind, &climate, &mut dice),
         climate,
         structure,
@@ -107,6 +110,7 @@ pub fn vary_some(planet: &Planet, seed: u64, strength: f64, moves: &dyn Fn(&Para
     });
     mend_biomes(&mut varied.biomes, &planet.biomes);
     mend_masks(&mut varied.layers, &planet.layers);
+    varied.life.iter_mut().for_each(Population::mend_ranges);
     varied
 }
 

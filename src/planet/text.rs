@@ -86,7 +86,10 @@ fn comment(param: &Param, value: ValueRef<'_>) -> String {
     let range = match (value, param.domain) {
         (ValueRef::Choice(choice), _) => choice.names().join(", "),
         // These have no range worth a comment.
-        (_, Domain::Text { .. } | Domain::MaskName { .. } | Domain::File { .. } | Domain::Color) => String::new(),
+        (
+            _,
+            Domain::Text { .. } | Domain::BiomeKeys | Domain::MaskName { .. } | Domain::File { .. } | Domain::Color,
+        ) => String::new(),
         _ => param.range_text(),
     };
     if !range.is_empty() {

@@ -6,13 +6,14 @@ use super::edits::{
     self, LEAST_WIDTH, MAX_ALL_COPIES, MAX_ALL_PLACES, MAX_ALL_POINTS, MAX_EDIT_POINTS, MAX_EDITS, MOST_COURSES_RADII,
     MOST_WIDTH,
 };
+use super::life::population_path;
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Params as _, Segment};
 use super::printable::number_text;
 use super::structure::MAX_PLATES;
 use super::{
-    EditPoint, GroundEdit, GroundEdits, Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet,
-    Steep, Table, Tool, layers, parts,
+    EditPoint, GroundEdit, GroundEdits, Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_POPULATIONS, MAX_SLOPE_DISTANCES,
+    Mask, Planet, Steep, Table, Tool, layers, parts,
 };
 use std::collections::HashSet;
 
@@ -79,6 +80,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
         }
     }
     biomes(&planet.biomes, &mut found);
+    populations(planet, &mut found);
     painted_biomes(planet, &mut found);
     courses(planet, &mut found);
     found.0
@@ -115,6 +117,7 @@ fn limits(planet: &Planet, found: &mut Found) {
     limit(ParamPath::default().join("edits"), "points of all edits", all_points, MAX_ALL_POINTS);
     let places = planet.edits.place_count();
     limit(ParamPath::default().join("edits"), "points of all edits with copies and images", places, MAX_ALL_PLACES);
+    limit(ParamPath::default().join("life"), "populations", planet.life.len(), MAX_POPULATIONS);
     limit(biomes_path("palette"), "biomes", planet.biomes.palette.len(), MAX_BIOMES);
     let bookmarks = planet.editor.as_ref().map_or(0, |editor| editor.bookmarks.len());
     let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("bookmarks")]);
@@ -202,6 +205,7 @@ fn giant(planet: &Planet, found: &mut Found) {
     let grounds = [
         ("layers", !planet.layers.is_empty()),
         ("edits", !planet.edits.is_empty()),
+        ("life", !planet.life.is_empty()),
         ("structure", planet.structure.is_some()),
         ("water", planet.water.is_some()),
     ];
@@ -356,6 +360,26 @@ fn painted_biomes(planet: &Planet, found: &mut Found) {
             let known: String = planet.biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
             let path = edits::edit_path(index).join("tool").join("biome");
             found.add(path, format!("{:?} is no key of the palette; use one of `{known}`", paint.biome));
+        }
+    }
+}
+
+fn populations(planet: &Planet, found: &mut Found) {
+    let known: String = planet.biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
+    for (index, population) in planet.life.iter().enumerate() {
+        let mut add = |field, message| found.add(population_path(index).join(field), message);
+        if let Some(key) = population.biomes.chars().find(|key| planet.biomes.index_of(*key).is_none()) {
+            add("biomes", format!("{key:?} is no key of the palette; use those of `{known}`"));
+        }
+        let ranges = [
+            ("slope_to_deg", population.slope_from_deg, population.slope_to_deg, "slope_from_deg"),
+            ("height_to_m", population.height_from_m, population.height_to_m, "height_from_m"),
+            ("temperature_to_c", population.temperature_from_c, population.temperature_to_c, "temperature_from_c"),
+            ("moisture_to", population.moisture_from, population.moisture_to, "moisture_from"),
+        ];
+        for (field, from, to, other) in ranges.into_iter().filter(|(_, from, to, _)| from > to) {
+            let [from, to] = [from, to].map(number_text);
+            add(field, format!("{to} is out of order; use at least `{other}` ({from})"));
         }
     }
 }

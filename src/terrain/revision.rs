@@ -97,6 +97,7 @@ pub struct Keys {
     cloud_paint: Option<Key>,
     optical_depth: Key,
     air_tables: Key,
+    life: Key,
 }
 
 impl Keys {
@@ -125,6 +126,11 @@ impl Keys {
         self.air_tables
     }
 
+    /// The key of the populations. What stands on the ground follows from the ground, the climate and the biomes, too.
+    pub fn life(&self) -> Key {
+        self.life
+    }
+
     /// The stages whose results differ, and those that read them. [`Stage::Field`] is among them only if a field is
     /// needed that the earlier revision did not need. [`Stage::Uniform`] and [`Stage::Label`] never are: uniforms are
     /// written for each frame, and labels are not drawn.
@@ -135,6 +141,7 @@ impl Keys {
             (Stage::Height, self.heights != before.heights),
             (Stage::ClimateNoise, self.climate_noise != before.climate_noise),
             (Stage::Climate, self.heights != before.heights || self.climate != before.climate),
+            (Stage::Life, self.life != before.life),
             (Stage::Material, self.materials != before.materials),
             (Stage::CloudMap, (self.cloud_map, self.cloud_paint) != (before.cloud_map, before.cloud_paint)),
             (Stage::OpticalDepth, self.optical_depth != before.optical_depth),
@@ -246,7 +253,7 @@ impl Compiled {
         let tiles = content.keys(final_map_keys(&map_inputs), plates);
         let all = edits.as_ref().map(|edits| [edits.key(), edits.mask_key(), edits.paint_key()]);
         let tiles = content.with_edits(tiles, all.unwrap_or_default());
-        let [materials, cloud_map, optical_depth, air_tables] = texture_keys(planet);
+        let [materials, cloud_map, optical_depth, air_tables, life] = drawn_keys(planet);
         let keys = Keys {
             fields: fields.into(),
             heights: tiles.heights,
@@ -257,6 +264,7 @@ impl Compiled {
             cloud_paint: edits.as_ref().and_then(|edits| edits.cloud_key()),
             optical_depth,
             air_tables,
+            life,
         };
         Self { stack, under: under.map(Arc::new), edits, climate, relief, map_inputs, content, keys }
     }
@@ -280,9 +288,9 @@ fn structure_inputs(planet: &Planet) -> Option<Arc<StructureInputs>> {
 
 /// Keys of the parameters that the biome textures, the cloud coverage map, and the LUTs of optical depth and of
 /// scattered light read.
-fn texture_keys(planet: &Planet) -> [Key; 4] {
-    const STAGES: [Stage; 4] = [Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables];
-    let mut read: [Vec<(ParamPath, Value)>; 4] = Default::default();
+fn drawn_keys(planet: &Planet) -> [Key; 5] {
+    const STAGES: [Stage; 5] = [Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables, Stage::Life];
+    let mut read: [Vec<(ParamPath, Value)>; 5] = Default::default();
     // Edits have keys of their own, and may be thousands.
     let bare = Planet { edits: GroundEdits::default(), ..planet.clone() };
     bare.each_value(&mut |path, param, value| {
@@ -292,12 +300,13 @@ fn texture_keys(planet: &Planet) -> [Key; 4] {
             }
         }
     });
-    let [materials, cloud_map, optical_depth, air_tables] = &read;
+    let [materials, cloud_map, optical_depth, air_tables, life] = &read;
     [
         Key::of(&(materials, &planet.biomes.table)),
         Key::of(cloud_map),
         Key::of(optical_depth),
         Key::of(&(optical_depth, air_tables)),
+        Key::of(life),
     ]
 }
 

@@ -27,6 +27,7 @@ use refine::{Goal, refine};
 
 pub use stats::{BuildStats, Memory, StageWork};
 
+use crate::life::scenery::{Scenery, SceneryCache};
 pub use crate::lod::cull::lowest_radius_m;
 use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::DetailTile;
@@ -50,6 +51,8 @@ pub struct Surface {
     pub terrain: Arc<Terrain>,
     /// The leaves, each with its edge mask for [`crate::lod::stitch::triangle_indices`].
     pub leaves: Vec<Leaf>,
+    /// Plants, stones and other objects on the ground, as far as they are there.
+    pub scenery: Scenery,
     /// Whether every tile is as fine as the view asks and the world maps are final. If not, a better surface follows.
     pub complete: bool,
     /// The view that it was made for.
@@ -145,7 +148,7 @@ fn built(terrain: &Arc<Terrain>, view: &View, stats: BuildStats, limits: &Limits
     refine(terrain, &goal, &cache, &mut None, stats, &|| limits.leave_time())
 }
 
-/// Computes the horizon angles and detail textures of all tiles that a view shows, and waits for them.
+/// Computes the horizon angles and detail textures of all tiles that a view shows, and its scenery, and waits for them.
 pub fn add_detail(surface: &mut Surface, view: &View) {
     add_detail_within(surface, view, &Limits::default());
 }
@@ -154,7 +157,10 @@ pub fn add_detail(surface: &mut Surface, view: &View) {
 pub fn add_detail_within(surface: &mut Surface, view: &View, limits: &Limits) -> bool {
     let in_time = || limits.leave_time();
     horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &in_time, &in_time);
-    find_detail(surface, view, &|_, _| {}, &in_time, &in_time)
+    let is_whole = find_detail(surface, view, &|_, _| {}, &in_time, &in_time);
+    let (scenery, has_all) = Scenery::find(&surface.terrain, view, &SceneryCache::default(), &in_time);
+    surface.scenery = scenery;
+    is_whole && has_all
 }
 
 /// Computes the detail textures of the tiles that a view shows, nearest tiles first, while `keep_going` says yes; a

@@ -8,6 +8,7 @@ use super::cache::Cache;
 use super::sew::Seams;
 use super::stats::{BuildStats, Work};
 use super::{Leaf, Surface};
+use crate::life::Scenery;
 use crate::lod::cull::lowest_radius_m;
 use crate::lod::tile::{DETAIL_BYTES, DetailTile, TILE_QUADS, TILE_VERTICES, Tile, Vertex};
 use crate::lod::{Quality, Ranges, Selection, View};
@@ -126,7 +127,8 @@ pub(crate) fn refine(
     } else if let Some(cut) = before {
         cut.seams = seams;
     }
-    Surface { terrain: terrain.clone(), leaves, complete, view: *view, ranges, asked, stats }
+    let scenery = Scenery::default();
+    Surface { terrain: terrain.clone(), leaves, scenery, complete, view: *view, ranges, asked, stats }
 }
 
 /// A finished LOD cut, from which the search for the next one starts.

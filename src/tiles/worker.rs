@@ -6,6 +6,7 @@ use super::cache::Cache;
 use super::horizon::HorizonFinder;
 use super::refine::{Cut, Goal, refine};
 use super::{BuildStats, Surface, find_detail};
+use crate::life::scenery::{Scenery, SceneryCache};
 use crate::lod::tile::{DetailTile, Tile};
 use crate::terrain::coarse::CellFields;
 use crate::terrain::{Revision, Terrain};
@@ -40,6 +41,8 @@ pub(super) struct Worker {
     terrain: Option<Arc<Terrain>>,
     /// Layer fields at the cells of world maps, kept for the next revision.
     cell_fields: CellFields,
+    /// Objects on the ground of earlier views.
+    scenery: SceneryCache,
     /// Whether the newest request had a first slice and still lacks a draft.
     owes_draft: bool,
     /// Number of the request that the newest slice worked for.
@@ -71,6 +74,7 @@ impl Worker {
             maps: options.maps,
             terrain: None,
             cell_fields: CellFields::default(),
+            scenery: SceneryCache::default(),
             owes_draft: false,
             request: 0,
             views: Vec::new(),
@@ -118,6 +122,7 @@ impl Worker {
                     // The state may be inconsistent.
                     self.cache.clear();
                     self.cell_fields.clear();
+                    self.scenery.clear();
                     self.terrain = None;
                     self.views.clear();
                     Some(text_of(panic.as_ref()))
@@ -186,6 +191,8 @@ impl Worker {
                 let mut surface = (self.refine)(&terrain, &goal, &self.cache, cut, stats, &keep_going);
                 surface.complete &= terrain.has_final_maps();
                 work.stats = surface.stats;
+                // Objects on ground that did not change.
+                surface.scenery = Scenery::find(&terrain, view, &self.scenery, &|| false).0;
                 // Show the tiles before spending time on their detail.
                 if !surface.complete || is_first || surface.stats.tiles_built > tiles_before {
                     work.complete = surface.complete.then(|| (surface.clone(), None));
@@ -202,7 +209,11 @@ impl Worker {
         let keep_going = || keep_going() || (begun.elapsed() < DETAIL_GRACE && planet_wanted());
         let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going, &planet_wanted);
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
-        let done = find_detail(&mut surface, view, &keep, &keep_going, &planet_wanted) && has_horizons;
+        let has_detail = find_detail(&mut surface, view, &keep, &keep_going, &planet_wanted) && has_horizons;
+        let (scenery, has_scenery) =
+            Scenery::find(&surface.terrain, view, &self.scenery, &|| has_detail && keep_going());
+        surface.scenery = scenery;
+        let done = has_detail && has_scenery;
         work.stats = surface.stats;
         work.complete = (!done).then(|| (surface.clone(), Some(finder)));
         self.views[index] = work;

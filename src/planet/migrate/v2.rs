@@ -24,7 +24,7 @@ frozen! {
         clouds: Option<Clouds> = None,
         editor: Option<EditorNotes> = None,
     } adding {
-        ground_version: None, edits: GroundEdits::default(),
+        ground_version: None, edits: GroundEdits::default(), life: Vec::new(),
         precision: Precision::Classic, structure: None, settlements: 0.0, giant: None, rings: None
     }
 }

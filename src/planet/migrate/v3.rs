@@ -2,8 +2,8 @@
 
 use crate::planet::param::Curve;
 use crate::planet::{
-    Atmosphere, Biomes, Climate, Clouds, EditorNotes, GROUND_VERSION, Giant, GroundEdits, Layer, Planet, Precision,
-    Rings, Star, Structure, VERSION, Version, Water,
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, GROUND_VERSION, Giant, GroundEdits, Layer, Planet, Population,
+    Precision, Rings, Star, Structure, VERSION, Version, Water,
 };
 use serde::{Deserialize, Serialize};
 
@@ -47,6 +47,8 @@ file! {
     layers: Vec<Layer>,
     #[serde(skip_serializing_if = "GroundEdits::is_empty")]
     edits: GroundEdits,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    life: Vec<Population>,
     climate: Climate,
     biomes: Biomes,
     structure: Option<Structure>,

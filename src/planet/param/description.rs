@@ -1,6 +1,7 @@
 //! What a parameter means: its name, unit and domain.
 
 use super::stage::Stages;
+use crate::planet::MAX_BIOMES;
 
 /// The unit a value is written in, in files and on sliders alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,6 +96,8 @@ pub enum Domain {
     Letter,
     /// The key of a biome of the palette.
     BiomeKey,
+    /// Keys of biomes of the palette, as a text; empty for all.
+    BiomeKeys,
     /// A line of text of at most this many characters.
     Text {
         /// Most characters allowed.
@@ -168,6 +171,7 @@ impl Param {
             Domain::Text { max_chars } | Domain::MaskName { max_chars } | Domain::File { max_chars } => {
                 format!("at most {max_chars} characters")
             }
+            Domain::BiomeKeys => format!("at most {MAX_BIOMES} keys of biomes"),
             Domain::Letter | Domain::BiomeKey => "one letter, digit or punctuation mark".to_owned(),
             Domain::Curve { most, .. } => {
                 format!("2 to {MAX_CURVE_POINTS} points, each from {} to {most}{gap}{unit}", -most)

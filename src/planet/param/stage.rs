@@ -15,6 +15,8 @@ pub enum Stage {
     ClimateNoise,
     /// Temperature and moisture at sea level, and the finished vertices.
     Climate,
+    /// Lists and meshes of what stands on the ground.
+    Life,
     /// Textures of the biome table and the palette.
     Material,
     /// The cloud coverage map.
@@ -31,11 +33,12 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which they run.
-    pub const ALL: [Stage; 10] = [
+    pub const ALL: [Stage; 11] = [
         Stage::Field,
         Stage::Height,
         Stage::ClimateNoise,
         Stage::Climate,
+        Stage::Life,
         Stage::Material,
         Stage::CloudMap,
         Stage::OpticalDepth,
@@ -52,7 +55,7 @@ impl Stage {
             // The shaders that fill these textures read the parameters from uniforms.
             Stage::OpticalDepth => Stages::of(&[Stage::AirTables, Stage::Uniform]),
             Stage::CloudMap | Stage::AirTables => Stages::of(&[Stage::Uniform]),
-            Stage::Climate | Stage::Material | Stage::Uniform | Stage::Label => Stages::NONE,
+            Stage::Climate | Stage::Life | Stage::Material | Stage::Uniform | Stage::Label => Stages::NONE,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The value of a parameter: copied out, borrowed, or borrowed to be written.
 
 use super::description::{Curve, Domain, MAX_CURVE_POINTS, Param, Unit};
+use crate::planet::MAX_BIOMES;
 use crate::planet::printable::number_text;
 
 /// A choice between named values.
@@ -65,7 +66,7 @@ pub enum ValueMut<'a> {
     Flag(&'a mut bool),
     /// See [`Domain::Color`] and [`Domain::Triple`].
     Triple(&'a mut [f64; 3]),
-    /// See [`Domain::Text`], [`Domain::MaskName`] and [`Domain::File`].
+    /// See [`Domain::Text`], [`Domain::BiomeKeys`], [`Domain::MaskName`] and [`Domain::File`].
     Text(&'a mut String),
     /// See [`Domain::Letter`] and [`Domain::BiomeKey`].
     Letter(&'a mut char),
@@ -157,6 +158,10 @@ impl Value {
                 } else {
                     None
                 }
+            }
+            (Value::Text(v), Domain::BiomeKeys) => {
+                let count = v.chars().count();
+                (count > MAX_BIOMES).then(|| format!("{count} keys are too many; use {}", param.range_text()))
             }
             (Value::Curve(points), Domain::Curve { most, least_step }) => {
                 curve_problem(points, most, least_step, param)

@@ -1,0 +1,114 @@
+//! Cells of a population: nodes of the quadtree whose side suits its density, and the candidates in each.
+
+use super::hash::Dice;
+use crate::planet::{Planet, Population};
+use crate::sphere::NodeId;
+use glam::DVec3;
+use std::f64::consts::FRAC_PI_2;
+
+/// Objects of a full cell, about.
+const CELL_OBJECTS: f64 = 100.0;
+/// Shortest and longest side of a cell in metres.
+const SIDE_M: [f64; 2] = [4.0, 2000.0];
+/// Share of its square within which a candidate lies, so that neighbours keep apart.
+const JITTER: f64 = 0.86;
+/// Square metres of a hectare.
+pub(super) const HECTARE_M2: f64 = 10_000.0;
+
+/// The cells of a population on a planet.
+#[derive(Clone, Debug)]
+pub(super) struct Grid {
+    /// Level of the cells.
+    pub(super) level: u8,
+    /// Nominal side of a cell, metres.
+    pub(super) side_m: f64,
+    radius_m: f64,
+    seed: u64,
+    /// Candidates on a square metre: as many as may stand anywhere.
+    most_per_m2: f64,
+}
+
+/// A candidate: a place where an object may stand.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) id: u64,
+    pub(super) dir: DVec3,
+    /// Place in the cell, 0 to 1.
+    pub(super) place: [f64; 2],
+    /// Rank, 0 to 1: it stands if the rank is below the share of the greatest density that suits the place.
+    pub(super) rank: f64,
+    /// Further random numbers.
+    pub(super) dice: Dice,
+}
+
+impl Grid {
+    pub(super) fn new(planet: &Planet, population: &Population) -> Self {
+        let radius_m = planet.radius_m();
+        let most_per_m2 = population.per_hectare / HECTARE_M2 * (1.0 + population.clumping);
+        let wanted_m = (CELL_OBJECTS / most_per_m2).sqrt().clamp(SIDE_M[0], SIDE_M[1]);
+        let mut level = 0;
+        let mut side_m = FRAC_PI_2 * radius_m;
+        while side_m > wanted_m && level < NodeId::MAX_LEVEL {
+            (level, side_m) = (level + 1, 0.5 * side_m);
+        }
+        let seed = u64::from(planet.seed) << 32 | u64::from(population.seed);
+        Self { level, side_m, radius_m, seed, most_per_m2 }
+    }
+
+    /// The candidates of a cell, in rows.
+    pub(super) fn candidates(&self, cell: NodeId) -> impl Iterator<Item = Candidate> {
+        let (count, share) = self.count_of(cell);
+        let seed = self.seed;
+        (0..count * count).map(move |lane| {
+            let mut dice = Dice::new(seed, cell, lane);
+            let id = dice.id();
+            let square = [lane % count, lane / count].map(f64::from);
+            let place = square.map(|corner| (corner + 0.5 + JITTER * (dice.next() - 0.5)) / f64::from(count));
+            let rank = dice.next() / share;
+            Candidate { id, dir: cell.direction(place[0], place[1]), place, rank, dice }
+        })
+    }
+
+    /// Candidates along a side of a cell, and the share of them that stands where everything suits them.
+    fn count_of(&self, cell: NodeId) -> (u32, f64) {
+        let wanted = self.most_per_m2 * self.area_m2(cell);
+        let count = wanted.sqrt().ceil().clamp(1.0, 512.0);
+        (count as u32, (wanted / (count * count)).min(1.0))
+    }
+
+    /// Area of a cell: that of the four-sided figure between its corners.
+    fn area_m2(&self, cell: NodeId) -> f64 {
+        let corner = |u, v| cell.direction(u, v) * self.radius_m;
+        let diagonals = [corner(1.0, 1.0) - corner(0.0, 0.0), corner(0.0, 1.0) - corner(1.0, 0.0)];
+        0.5 * diagonals[0].cross(diagonals[1]).length()
+    }
+
+    /// Cells that touch a disc around a direction, `radius_m` along the sphere, in ascending order.
+    pub(super) fn cells_within(&self, dir: DVec3, radius_m: f64) -> Vec<NodeId> {
+        let reach_rad = radius_m / self.radius_m;
+        let mut found = Vec::new();
+        let mut open: Vec<NodeId> = NodeId::roots().into();
+        while let Some(node) = open.pop() {
+            let middle = node.direction(0.5, 0.5);
+            let half_rad = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)]
+                .into_iter()
+                .map(|(u, v)| angle(middle, node.direction(u, v)))
+                .fold(0.0, f64::max);
+            if angle(middle, dir) > reach_rad + half_rad {
+                continue;
+            }
+            if node.level == self.level {
+                found.push(node);
+            } else {
+                open.extend(node.children());
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+}
+
+/// Angle between unit vectors; precise where it is small.
+pub(super) fn angle(a: DVec3, b: DVec3) -> f64 {
+    2.0 * libm::asin((0.5 * (a - b).length()).min(1.0))
+}

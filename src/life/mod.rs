@@ -1,0 +1,22 @@
+//! What stands on the ground: where the objects of a planet's populations are, and the meshes of their forms.
+//!
+//! - `grid`: cells of a population and the candidates in them; `hash`: their random numbers
+//! - `suitability`: how well a place suits a population
+//! - `placement`: the objects of a cell
+//! - [`query`]: objects of a terrain, for games and exports
+//! - [`scenery`]: the objects that a view draws, kept from one view to the next
+//!
+//! A cell of a population is a node of the quadtree. Each candidate in it has a place, a size and a rank by integer
+//! hash of the population's seed and the node, and stands if its rank is below the density there. The density is that
+//! of [`Sample`](crate::terrain::Sample), so lists are the same bits on every machine, and objects stand on the ground
+//! that queries answer.
+
+mod grid;
+mod hash;
+mod placement;
+pub mod query;
+pub mod scenery;
+mod suitability;
+
+pub use query::{Instance, TooMany};
+pub use scenery::{Scenery, SceneryCell};

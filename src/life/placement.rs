@@ -1,0 +1,105 @@
+//! The objects of a cell: the candidates that stand, on the ground of the evaluator.
+
+use super::grid::{Candidate, Grid};
+use super::query::Instance;
+use super::suitability::Suitability;
+use crate::planet::{Form, Planet, Population};
+use crate::sphere::NodeId;
+use crate::terrain::{Sample, Scratch, Terrain, Wanted};
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// A population of a planet, ready to be placed.
+#[derive(Clone, Debug)]
+pub(super) struct Placement {
+    pub(super) grid: Grid,
+    pub(super) population: Population,
+    /// Index in the planet's list.
+    pub(super) index: u16,
+    suitability: Suitability,
+    radius_m: f64,
+    seed: u32,
+}
+
+/// Memory for placing on one thread.
+#[derive(Default)]
+pub(super) struct PlacementScratch {
+    candidates: Vec<(Candidate, f64)>,
+    dirs: Vec<DVec3>,
+    samples: Vec<Sample>,
+    scratch: Scratch,
+}
+
+impl Placement {
+    /// The populations of a planet that are on.
+    pub(super) fn all(planet: &Planet) -> Vec<Self> {
+        let populations = planet.life.iter().enumerate().filter(|(_, population)| population.enabled);
+        populations.map(|(index, population)| Self::new(planet, population, index as u16)).collect()
+    }
+
+    fn new(planet: &Planet, population: &Population, index: u16) -> Self {
+        Self {
+            grid: Grid::new(planet, population),
+            suitability: Suitability::new(planet, population),
+            population: population.clone(),
+            index,
+            radius_m: planet.radius_m(),
+            seed: planet.seed.rotate_left(16) ^ population.seed,
+        }
+    }
+
+    /// Objects on a hectare where everything suits them, groups apart.
+    pub(super) fn most_per_m2(&self) -> f64 {
+        self.population.per_hectare / super::grid::HECTARE_M2
+    }
+
+    /// The objects of a cell, in the order of its candidates.
+    pub(super) fn place(&self, terrain: &Terrain, cell: NodeId, memory: &mut PlacementScratch) -> Vec<Instance> {
+        let PlacementScratch { candidates, dirs, samples, scratch } = memory;
+        candidates.clear();
+        // Groups are found first, because the ground is dear.
+        candidates.extend(self.grid.candidates(cell).filter_map(|candidate| {
+            let share = self.suitability.clumping(candidate.dir, self.radius_m, self.seed);
+            (candidate.rank < share).then_some((candidate, share))
+        }));
+        dirs.clear();
+        dirs.extend(candidates.iter().map(|(candidate, _)| candidate.dir));
+        samples.clear();
+        samples.resize(dirs.len(), Sample::default());
+        let wanted = Wanted::HEIGHT.and_normal().and_climate().and_biome().and_water();
+        terrain.samples_spaced_into(dirs, 0.0, wanted, samples, scratch);
+        let placed = candidates.iter().zip(&*samples).filter_map(|((candidate, share), sample)| {
+            let density = share * self.suitability.at(sample);
+            (candidate.rank < density).then(|| self.instance(candidate, density, sample))
+        });
+        placed.collect()
+    }
+
+    fn instance(&self, candidate: &Candidate, density: f64, sample: &Sample) -> Instance {
+        let (population, mut dice) = (&self.population, candidate.dice);
+        let turn_rad = TAU * dice.next();
+        let scale = 1.0 + population.height_spread * (2.0 * dice.next() - 1.0);
+        let brightness = 1.0 + 0.6 * population.color_spread * (2.0 * dice.next() - 1.0);
+        let variant = (dice.next() * f64::from(Form::VARIANTS)) as u8;
+        let (lean, lean_to) = (population.lean_deg.to_radians() * dice.next(), TAU * dice.next());
+        let up = candidate.dir;
+        let along = up.lerp(sample.normal_planet, 1.0 - population.upright).normalize_or(up);
+        let (east, north) = along.any_orthonormal_pair();
+        let aside = east * libm::cos(lean_to) + north * libm::sin(lean_to);
+        let size_m = population.height_m * scale;
+        Instance {
+            id: candidate.id,
+            population: self.index,
+            dir_planet: up,
+            ground_m: sample.height_m,
+            base_m: sample.height_m - population.sunk * size_m,
+            axis_planet: (along * libm::cos(lean) + aside * libm::sin(lean)).normalize_or(along),
+            turn_rad,
+            size_m,
+            variant,
+            brightness,
+            rank: candidate.rank / density,
+            place: candidate.place,
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Objects of a terrain around a place, for games and exports: the objects that are drawn.
+
+use super::grid::angle;
+use super::placement::{Placement, PlacementScratch};
+use crate::sphere::NodeId;
+use crate::terrain::Terrain;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// An object that stands on the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Instance {
+    /// Id: the same wherever and whenever the object is asked for, while planet seed, population seed and density stay.
+    pub id: u64,
+    /// Index of its population in [`Planet::life`](crate::planet::Planet::life).
+    pub population: u16,
+    /// Unit vector from the planet's centre through the place.
+    pub dir_planet: DVec3,
+    /// Height of the ground there above the reference sphere, metres: that of [`Terrain::height_m`], to the bit.
+    pub ground_m: f64,
+    /// Height of the foot of the form above the reference sphere, metres: it may be sunk into the ground.
+    pub base_m: f64,
+    /// Unit vector from the foot to the top, in the planet frame.
+    pub axis_planet: DVec3,
+    /// Turn about the axis, radians.
+    pub turn_rad: f64,
+    /// Height of the form along its axis, metres.
+    pub size_m: f64,
+    /// Variant of the form, below [`Form::VARIANTS`](crate::planet::Form::VARIANTS).
+    pub variant: u8,
+    /// Factor on the population's colours.
+    pub brightness: f64,
+    /// Rank among the objects of its density, 0 to 1: a coarser level of detail keeps those of low rank, whose
+    /// density is as even.
+    pub rank: f64,
+    /// Place in its cell, 0 to 1.
+    pub(crate) place: [f64; 2],
+}
+
+/// A query for more objects than it may give.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("up to {candidates} objects are there; ask for a smaller part, for at most {most}")]
+pub struct TooMany {
+    /// Objects that may stand there.
+    pub candidates: u64,
+    /// Most of one query.
+    pub most: u64,
+}
+
+impl Terrain {
+    /// Most objects of one query of [`Terrain::instances`].
+    pub const MOST_INSTANCES: u64 = 20_000_000;
+
+    /// All objects whose place is within `radius_m` of a direction, along the reference sphere; on all cores, in
+    /// ascending order of their ids.
+    ///
+    /// # Errors
+    /// [`TooMany`]: the part is so large that more than [`Terrain::MOST_INSTANCES`] may stand there.
+    pub fn instances(&self, dir_planet: DVec3, radius_m: f64) -> Result<Vec<Instance>, TooMany> {
+        let (dir, planet_m) = (dir_planet.normalize_or(DVec3::Z), self.planet().radius_m());
+        let reach_rad = radius_m / planet_m;
+        self.instances_where(dir, radius_m, &|at| angle(at, dir) <= reach_rad)
+    }
+
+    /// The objects within `radius_m` of a direction whose place a filter takes.
+    pub(crate) fn instances_where(
+        &self,
+        dir: DVec3,
+        radius_m: f64,
+        takes: &(dyn Fn(DVec3) -> bool + Sync),
+    ) -> Result<Vec<Instance>, TooMany> {
+        let radius_m = if radius_m > 0.0 { radius_m } else { 0.0 };
+        let planet_m = self.planet().radius_m();
+        let placements = Placement::all(self.planet());
+        let area_m2 = std::f64::consts::PI * radius_m.min(2.0 * planet_m).powi(2);
+        let candidates: f64 = placements.iter().map(|placement| placement.most_per_m2() * area_m2).sum();
+        if candidates > Self::MOST_INSTANCES as f64 {
+            return Err(TooMany { candidates: candidates as u64, most: Self::MOST_INSTANCES });
+        }
+        let cells: Vec<(&Placement, NodeId)> = placements
+            .iter()
+            .flat_map(|placement| {
+                placement.grid.cells_within(dir, radius_m).into_iter().map(move |cell| (placement, cell))
+            })
+            .collect();
+        let mut found: Vec<Instance> = cells
+            .par_iter()
+            .map_init(PlacementScratch::default, |memory, (placement, cell)| placement.place(self, *cell, memory))
+            .flatten_iter()
+            .filter(|instance| takes(instance.dir_planet))
+            .collect();
+        found.sort_unstable_by_key(|instance| (instance.id, instance.population));
+        Ok(found)
+    }
+}

@@ -1,0 +1,249 @@
+//! Scenery: the objects that a view draws, cell by cell, and those of earlier views that serve it.
+
+use super::grid::angle;
+use super::placement::{Placement, PlacementScratch};
+use super::query::Instance;
+use crate::lod::cull::lowest_radius_m;
+use crate::lod::{Culling, Quality, View};
+use crate::planet::Key;
+use crate::sphere::{NodeId, geo};
+use crate::terrain::Terrain;
+use glam::{DMat3, DQuat, DVec3, Quat};
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// An object as it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SceneryObject {
+    /// Foot of the form, metres from the planet's centre.
+    pub foot_planet_m: DVec3,
+    /// Turns the form (z up) into the planet frame.
+    pub planet_from_form: Quat,
+    /// Height of the form, metres.
+    pub size_m: f32,
+    /// See [`Instance::brightness`].
+    pub brightness: f32,
+    /// See [`Instance::rank`].
+    pub rank: f32,
+    /// See [`Instance::variant`].
+    pub variant: u8,
+    /// Place in the cell, 0 to 1.
+    pub place: [f32; 2],
+}
+
+/// The objects of a population in a node.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct SceneryCell {
+    /// Index of the population.
+    pub population: u16,
+    /// The node.
+    pub id: NodeId,
+    /// Its objects.
+    pub objects: Vec<SceneryObject>,
+    /// Middle of a sphere that holds them, metres from the planet's centre.
+    pub center_planet_m: DVec3,
+    /// Radius of that sphere.
+    pub bounding_radius_m: f64,
+    /// Content key of the ground and of the population.
+    key: Key,
+}
+
+/// The objects that a view draws.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Scenery {
+    /// Cells with objects, nearest first within a population.
+    pub cells: Vec<Arc<SceneryCell>>,
+    /// For each population of the planet, the distance from the eye up to which its objects are drawn; beyond a half of
+    /// it they thin out by rank.
+    pub reach_m: Vec<f64>,
+}
+
+/// Share of its reach up to which all objects of a population are drawn.
+pub const FULL_SHARE: f64 = 0.5;
+
+/// Share of the objects of a population that are drawn at a distance.
+pub fn share_at(distance_m: f64, reach_m: f64) -> f64 {
+    ((reach_m - distance_m) / (reach_m * (1.0 - FULL_SHARE))).clamp(0.0, 1.0)
+}
+
+/// Heights of an object within which it is drawn, and the most objects of a population around the eye.
+fn limits(quality: Quality) -> (f64, f64) {
+    match quality {
+        Quality::Low => (60.0, 12_000.0),
+        Quality::Medium => (130.0, 80_000.0),
+        Quality::High => (260.0, 300_000.0),
+    }
+}
+
+/// Distance up to which objects of a population are drawn.
+fn reach_m(placement: &Placement, quality: Quality) -> f64 {
+    let (heights, most) = limits(quality);
+    let by_count_m = (most / (placement.most_per_m2() * std::f64::consts::PI)).sqrt();
+    (placement.population.height_m * heights).min(by_count_m)
+}
+
+/// Cells of earlier views.
+#[derive(Debug, Default)]
+pub(crate) struct SceneryCache {
+    cells: Mutex<HashMap<(u16, NodeId), Arc<SceneryCell>>>,
+}
+
+/// Most objects that the cache keeps.
+const MOST_KEPT: usize = 600_000;
+
+impl SceneryCache {
+    fn known(&self, population: u16, id: NodeId, key: Key) -> Option<Arc<SceneryCell>> {
+        let cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        cells.get(&(population, id)).filter(|cell| cell.key == key).cloned()
+    }
+
+    fn keep(&self, cell: &Arc<SceneryCell>) {
+        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        cells.insert((cell.population, cell.id), cell.clone());
+    }
+
+    /// Forgets cells that a view does not need, if there are too many.
+    fn trim(&self, scenery: &Scenery) {
+        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        // A cell without objects takes room, too.
+        let kept: usize = cells.values().map(|cell| 4 + cell.objects.len()).sum();
+        if kept > MOST_KEPT {
+            *cells = scenery.cells.iter().map(|cell| ((cell.population, cell.id), cell.clone())).collect();
+        }
+    }
+
+    /// Forgets all.
+    pub(crate) fn clear(&self) {
+        self.cells.lock().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+}
+
+/// A cell that a view needs.
+struct Needed<'a> {
+    placement: &'a Placement,
+    id: NodeId,
+    key: Key,
+    away_m: f64,
+}
+
+impl Scenery {
+    /// The scenery of a view as far as it is kept, and the rest, nearest cells first, while `keep_going` says yes.
+    /// Whether all of it is there now.
+    pub(crate) fn find(
+        terrain: &Terrain,
+        view: &View,
+        cache: &SceneryCache,
+        keep_going: &(dyn Fn() -> bool + Sync),
+    ) -> (Self, bool) {
+        let placements = Placement::all(terrain.planet());
+        let mut scenery = Self { cells: Vec::new(), reach_m: vec![0.0; terrain.planet().life.len()] };
+        if placements.is_empty() {
+            return (scenery, true);
+        }
+        for placement in &placements {
+            scenery.reach_m[usize::from(placement.index)] = reach_m(placement, view.quality);
+        }
+        let needed = needed(terrain, view, &placements);
+        let mut found: Vec<Option<Arc<SceneryCell>>> =
+            needed.iter().map(|needed| cache.known(needed.placement.index, needed.id, needed.key)).collect();
+        let lacking: Vec<usize> = (0..needed.len()).filter(|i| found[*i].is_none()).collect();
+        // In rounds, which keeps the order and can be stopped in between.
+        let round = 8 * rayon::current_num_threads().max(1);
+        let mut is_whole = true;
+        for round in lacking.chunks(round) {
+            if !keep_going() {
+                is_whole = false;
+                break;
+            }
+            let made: Vec<(usize, Arc<SceneryCell>)> = round
+                .par_iter()
+                .map_init(PlacementScratch::default, |memory, i| (*i, Arc::new(make(terrain, &needed[*i], memory))))
+                .collect();
+            for (i, cell) in made {
+                cache.keep(&cell);
+                found[i] = Some(cell);
+            }
+        }
+        scenery.cells = found.into_iter().flatten().filter(|cell| !cell.objects.is_empty()).collect();
+        cache.trim(&scenery);
+        (scenery, is_whole)
+    }
+
+    /// Objects in all cells.
+    pub fn object_count(&self) -> usize {
+        self.cells.iter().map(|cell| cell.objects.len()).sum()
+    }
+}
+
+/// The cells that a view needs, nearest first.
+fn needed<'a>(terrain: &Terrain, view: &View, placements: &'a [Placement]) -> Vec<Needed<'a>> {
+    let planet = terrain.planet();
+    let (eye, planet_m) = (view.camera.position_planet_m, planet.radius_m());
+    let dir = eye.normalize_or(DVec3::Z);
+    let ground_m = planet_m + terrain.height_m(dir).max(planet.sea_level_m().unwrap_or(f64::MIN));
+    let above_m = (eye.length() - ground_m).max(0.0);
+    let culling = Culling::new(view, lowest_radius_m(terrain));
+    // What decides about the ground, the climate and the biomes of a place.
+    let rules = Key::of(&(&planet.biomes, &planet.climate, planet.sea_level_m(), planet.radius_km, planet.seed));
+    let mut needed = Vec::new();
+    for placement in placements {
+        let reach_m = reach_m(placement, view.quality);
+        // From above, less of the ground is in reach; hills rise towards the eye.
+        let flat_m = (reach_m * reach_m - (0.8 * above_m).powi(2)).max(0.0).sqrt();
+        if flat_m <= 0.0 {
+            continue;
+        }
+        let own = Key::of(&(rules, &placement.population));
+        let side_m = placement.grid.side_m;
+        for id in placement.grid.cells_within(dir, flat_m) {
+            let middle = id.direction(0.5, 0.5);
+            let away_m = angle(middle, dir) * planet_m;
+            // Heights are not known yet: hills may rise as far as they are away.
+            let radius_m = side_m + placement.population.height_m + away_m.min(2000.0);
+            if culling.sees_sphere(middle * ground_m, radius_m) {
+                let key = Key::of(&(own, terrain.tile_keys_at(id)));
+                needed.push(Needed { placement, id, key, away_m });
+            }
+        }
+    }
+    needed.sort_by(|a, b| {
+        a.away_m.total_cmp(&b.away_m).then(a.id.cmp(&b.id)).then(a.placement.index.cmp(&b.placement.index))
+    });
+    needed
+}
+
+fn make(terrain: &Terrain, needed: &Needed<'_>, memory: &mut PlacementScratch) -> SceneryCell {
+    let planet_m = terrain.planet().radius_m();
+    let instances = needed.placement.place(terrain, needed.id, memory);
+    let objects: Vec<SceneryObject> = instances.iter().map(|instance| object(instance, planet_m)).collect();
+    let middle = objects.iter().map(|object| object.foot_planet_m).sum::<DVec3>() / objects.len().max(1) as f64;
+    let reach = |object: &SceneryObject| object.foot_planet_m.distance(middle) + f64::from(object.size_m) * 1.5;
+    SceneryCell {
+        population: needed.placement.index,
+        id: needed.id,
+        center_planet_m: middle,
+        bounding_radius_m: objects.iter().map(reach).fold(0.0, f64::max),
+        objects,
+        key: needed.key,
+    }
+}
+
+fn object(instance: &Instance, planet_m: f64) -> SceneryObject {
+    let axis = instance.axis_planet;
+    let (east, _) = geo::east_north(instance.dir_planet);
+    let x = (east - axis * axis.dot(east)).normalize_or(axis.any_orthonormal_vector());
+    let standing = DQuat::from_mat3(&DMat3::from_cols(x, axis.cross(x), axis));
+    SceneryObject {
+        foot_planet_m: instance.dir_planet * (planet_m + instance.base_m),
+        planet_from_form: (standing * DQuat::from_rotation_z(instance.turn_rad)).normalize().as_quat(),
+        size_m: instance.size_m as f32,
+        brightness: instance.brightness as f32,
+        rank: instance.rank as f32,
+        variant: instance.variant,
+        place: instance.place.map(|part| part as f32),
+    }
+}

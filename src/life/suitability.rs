@@ -1,0 +1,68 @@
+//! How well a place suits a population: the density there as a share of the greatest.
+
+use crate::planet::{Planet, Population};
+use crate::terrain::{Sample, noise};
+use glam::DVec3;
+
+/// Degrees over which a population thins out beyond the ends of its temperatures.
+const SOFT_C: f64 = 2.0;
+/// Degrees over which it thins out beyond the ends of its slopes.
+const SOFT_DEG: f64 = 3.0;
+/// Moisture over which it thins out beyond the ends of its range.
+const SOFT_MOISTURE: f64 = 0.04;
+/// Metres over which it thins out beyond the ends of its heights.
+const SOFT_M: f64 = 15.0;
+
+/// What a population asks of a place.
+#[derive(Clone, Debug)]
+pub(super) struct Suitability {
+    population: Population,
+    /// For each biome of the palette, whether the population stands there.
+    biomes: Vec<bool>,
+    sea_m: Option<f64>,
+}
+
+impl Suitability {
+    pub(super) fn new(planet: &Planet, population: &Population) -> Self {
+        let biomes = planet.biomes.palette.iter().map(|biome| population.stands_in(biome.key)).collect();
+        Self { population: population.clone(), biomes, sea_m: planet.sea_level_m() }
+    }
+
+    /// Share of the density of the population that the ground at a sample bears, 0 to 1.
+    pub(super) fn at(&self, sample: &Sample) -> f64 {
+        let population = &self.population;
+        if !self.biomes.get(sample.biome).is_some_and(|stands| *stands) {
+            return 0.0;
+        }
+        if !population.in_water {
+            let is_wet = sample.water_level_m.is_some_and(|level_m| level_m > sample.height_m);
+            let is_shore = self.sea_m.is_some_and(|sea_m| sample.height_m < sea_m + population.shore_m);
+            if is_wet || is_shore {
+                return 0.0;
+            }
+        }
+        let slope_deg = sample.slope_rad.to_degrees();
+        let above_m = sample.height_m - self.sea_m.unwrap_or(0.0);
+        between(slope_deg, population.slope_from_deg, population.slope_to_deg, SOFT_DEG)
+            * between(above_m, population.height_from_m, population.height_to_m, SOFT_M)
+            * between(sample.temperature_c, population.temperature_from_c, population.temperature_to_c, SOFT_C)
+            * between(sample.moisture, population.moisture_from, population.moisture_to, SOFT_MOISTURE)
+    }
+
+    /// Share of the objects that groups leave at a direction: from `1 - clumping` to `1 + clumping`, over the greatest.
+    pub(super) fn clumping(&self, dir: DVec3, radius_m: f64, seed: u32) -> f64 {
+        let clumping = self.population.clumping;
+        if clumping <= 0.0 {
+            return 1.0;
+        }
+        let [x, y, z] = noise::skew((dir * (radius_m / self.population.clump_m)).to_array()).map(noise::split::<f64>);
+        let noise = noise::value([x.0, y.0, z.0], [x.1, y.1, z.1], seed);
+        (1.0 + clumping * (2.0 * noise).clamp(-1.0, 1.0)) / (1.0 + clumping)
+    }
+}
+
+/// 1 within a range, 0 from `soft` outside its ends on.
+fn between(x: f64, from: f64, to: f64, soft: f64) -> f64 {
+    let outside = (from - x).max(x - to).max(0.0);
+    (1.0 - outside / soft).max(0.0)
+}
