@@ -4,6 +4,7 @@
 #include "material.wgsl"
 #include "highlight.wgsl"
 #include "horizon.wgsl"
+#include "object_shadow.wgsl"
 #include "sea.wgsl"
 #include "settlements.wgsl"
 #include "giant_tops.wgsl"
@@ -491,7 +492,8 @@ struct Output {
 fn fragment(in: Ground) -> Output {
     let up = normalize(body.eye_km + in.rel_m * 0.001);
     use_sun(0u);
-    let from_ground = visibility_at(in, up);
+    var from_ground = visibility_at(in, up);
+    from_ground.star *= object_light(in.rel_m, normalize(in.normal));
     let shaded = shade(in, from_ground);
     let spread_m = min(shaded.spread_m, 60000.0);
     let surface = vec4f(in.level_climate.y, 1.0 - from_ground.star, spread_m, 0.0);

@@ -8,6 +8,9 @@
 @group(0) @binding(1) var<uniform> body: Body;
 @group(0) @binding(2) var clamped: sampler;
 @group(0) @binding(3) var repeated: sampler;
+// Depth of objects from the first sun, in cascades
+@group(0) @binding(4) var object_shadows: texture_depth_2d_array;
+@group(0) @binding(5) var compared: sampler_comparison;
 
 // The sun whose light is being computed. Passes loop over the suns of the scene and call `use_sun` for each.
 var<private> active_sun: Sun;

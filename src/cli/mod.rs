@@ -1,9 +1,9 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations; `area`: arguments that bakes share
-//! - `render`, `film`, `check`, `sample`, `nearest`, `bake`, `mesh`, `tiles`, `rivers`, `coasts`, `maps`, `sky`,
-//!   `system`, `new`, `bench`: the subcommands
-//! - `geojson`: features and lines for `rivers` and `coasts`; `polygons`: land and water from coasts
+//! - `render`, `film`, `check`, `sample`, `nearest`, `bake`, `mesh`, `tiles`, `rivers`, `coasts`, `instances`, `maps`,
+//!   `sky`, `system`, `new`, `bench`: the subcommands
+//! - `geojson`: features and lines for `rivers`, `coasts` and `instances`; `polygons`: land and water from coasts
 //! - `points`: many points for `sample`
 //! - `work`: threads, and progress of long work
 //! - `headless`: a GPU without a window
@@ -23,6 +23,7 @@ mod coasts;
 mod film;
 mod geojson;
 mod headless;
+mod instances;
 mod logging;
 mod maps;
 mod mesh;
@@ -77,6 +78,7 @@ enum Command {
     Tiles(tiles::Args),
     Rivers(rivers::Args),
     Coasts(coasts::Args),
+    Instances(instances::Args),
     Maps(maps::Args),
     Sky(sky::Args),
     System(system::Args),
@@ -132,6 +134,7 @@ pub fn run() -> ExitCode {
         Some(Command::Tiles(args)) => tiles::run(&args),
         Some(Command::Rivers(args)) => rivers::run(&args),
         Some(Command::Coasts(args)) => coasts::run(&args),
+        Some(Command::Instances(args)) => instances::run(&args),
         Some(Command::Maps(args)) => maps::run(&args),
         Some(Command::Sky(args)) => sky::run(&args),
         Some(Command::System(args)) => system::run(&args),

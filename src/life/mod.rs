@@ -1,22 +1,28 @@
 //! What stands on the ground: where the objects of a planet's populations are, and the meshes of their forms.
 //!
+//! - [`form`]: meshes of forms; `model`: those of a population
 //! - `grid`: cells of a population and the candidates in them; `hash`: their random numbers
+//! - `soil`: what the ground of a node offers
 //! - `suitability`: how well a place suits a population
 //! - `placement`: the objects of a cell
 //! - [`query`]: objects of a terrain, for games and exports
 //! - [`scenery`]: the objects that a view draws, kept from one view to the next
 //!
 //! A cell of a population is a node of the quadtree. Each candidate in it has a place, a size and a rank by integer
-//! hash of the population's seed and the node, and stands if its rank is below the density there. The density is that
-//! of [`Sample`](crate::terrain::Sample), so lists are the same bits on every machine, and objects stand on the ground
-//! that queries answer.
+//! hash of the population's seed and the node, and stands if its rank is below the density there. The density follows
+//! from [`Sample`](crate::terrain::Sample)s, so lists are the same bits on every machine, and objects stand on the
+//! ground that queries answer.
 
+pub mod form;
 mod grid;
 mod hash;
+mod model;
 mod placement;
 pub mod query;
 pub mod scenery;
+mod soil;
 mod suitability;
 
+pub use model::Model;
 pub use query::{Instance, TooMany};
 pub use scenery::{Scenery, SceneryCell};

@@ -2,6 +2,7 @@
 
 use super::grid::{Candidate, Grid};
 use super::query::Instance;
+use super::soil::Soil;
 use super::suitability::Suitability;
 use crate::planet::{Form, Planet, Population};
 use crate::sphere::NodeId;
@@ -19,6 +20,7 @@ pub(super) struct Placement {
     suitability: Suitability,
     radius_m: f64,
     seed: u32,
+    soil_level: u8,
 }
 
 /// Memory for placing on one thread.
@@ -45,6 +47,7 @@ impl Placement {
             index,
             radius_m: planet.radius_m(),
             seed: planet.seed.rotate_left(16) ^ population.seed,
+            soil_level: Soil::level(planet),
         }
     }
 
@@ -53,23 +56,57 @@ impl Placement {
         self.population.per_hectare / super::grid::HECTARE_M2
     }
 
-    /// The objects of a cell, in the order of its candidates.
-    pub(super) fn place(&self, terrain: &Terrain, cell: NodeId, memory: &mut PlacementScratch) -> Vec<Instance> {
+    /// The node whose soil decides about a cell; None for the large cells of a sparse population.
+    pub(super) fn soil_node(&self, cell: NodeId) -> Option<NodeId> {
+        let mut node = cell;
+        while node.level > self.soil_level {
+            node = node.parent()?;
+        }
+        (node.level == self.soil_level).then_some(node)
+    }
+
+    /// The objects of a cell, in the order of its candidates. `soil`: that of [`Placement::soil_node`].
+    pub(super) fn place(
+        &self,
+        terrain: &Terrain,
+        cell: NodeId,
+        soil: Option<&Soil>,
+        memory: &mut PlacementScratch,
+    ) -> Vec<Instance> {
         let PlacementScratch { candidates, dirs, samples, scratch } = memory;
+        let offer = match soil.map(|soil| soil.offered(&self.suitability)) {
+            Some(None) => return Vec::new(),
+            Some(offer) => offer,
+            None => None,
+        };
         candidates.clear();
-        // Groups are found first, because the ground is dear.
+        // The ground is dear: it is asked for last.
         candidates.extend(self.grid.candidates(cell).filter_map(|candidate| {
-            let share = self.suitability.clumping(candidate.dir, self.radius_m, self.seed);
+            let offered = offer.as_ref().map_or(1.0, |offer| offer.at(cell, candidate.place));
+            if candidate.rank >= offered {
+                return None;
+            }
+            let share = offered * self.suitability.clumping(candidate.dir, self.radius_m, self.seed);
             (candidate.rank < share).then_some((candidate, share))
         }));
         dirs.clear();
         dirs.extend(candidates.iter().map(|(candidate, _)| candidate.dir));
         samples.clear();
         samples.resize(dirs.len(), Sample::default());
-        let wanted = Wanted::HEIGHT.and_normal().and_climate().and_biome().and_water();
+        let has_soil = offer.is_some();
+        let mut wanted = Wanted { normal: self.population.upright < 1.0, ..Wanted::HEIGHT };
+        wanted.water = !soil.is_some_and(|soil| soil.is_dry);
+        if !has_soil {
+            wanted = Wanted::ALL;
+        }
         terrain.samples_spaced_into(dirs, 0.0, wanted, samples, scratch);
         let placed = candidates.iter().zip(&*samples).filter_map(|((candidate, share), sample)| {
-            let density = share * self.suitability.at(sample);
+            let here = if has_soil {
+                f64::from(u8::from(self.suitability.is_dry(sample)))
+            } else {
+                self.suitability.at(sample)
+            };
+            let density = share * here;
             (candidate.rank < density).then(|| self.instance(candidate, density, sample))
         });
         placed.collect()

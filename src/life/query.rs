@@ -2,6 +2,7 @@
 
 use super::grid::angle;
 use super::placement::{Placement, PlacementScratch};
+use super::soil::Soils;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use glam::DVec3;
@@ -84,9 +85,12 @@ impl Terrain {
                 placement.grid.cells_within(dir, radius_m).into_iter().map(move |cell| (placement, cell))
             })
             .collect();
+        let soils = Soils::of(self, cells.iter().filter_map(|(placement, cell)| placement.soil_node(*cell)));
         let mut found: Vec<Instance> = cells
             .par_iter()
-            .map_init(PlacementScratch::default, |memory, (placement, cell)| placement.place(self, *cell, memory))
+            .map_init(PlacementScratch::default, |memory, (placement, cell)| {
+                placement.place(self, *cell, soils.get(placement.soil_node(*cell)), memory)
+            })
             .flatten_iter()
             .filter(|instance| takes(instance.dir_planet))
             .collect();

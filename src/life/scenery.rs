@@ -1,11 +1,13 @@
 //! Scenery: the objects that a view draws, cell by cell, and those of earlier views that serve it.
 
 use super::grid::angle;
+use super::model::Model;
 use super::placement::{Placement, PlacementScratch};
 use super::query::Instance;
+use super::soil::{Soil, Soils};
 use crate::lod::cull::lowest_radius_m;
 use crate::lod::{Culling, Quality, View};
-use crate::planet::Key;
+use crate::planet::{Key, MAX_POPULATIONS, Population};
 use crate::sphere::{NodeId, geo};
 use crate::terrain::Terrain;
 use glam::{DMat3, DQuat, DVec3, Quat};
@@ -57,6 +59,8 @@ pub struct SceneryCell {
 pub struct Scenery {
     /// Cells with objects, nearest first within a population.
     pub cells: Vec<Arc<SceneryCell>>,
+    /// For each population of the planet, its meshes; None for those that are off.
+    pub models: Vec<Option<Arc<Model>>>,
     /// For each population of the planet, the distance from the eye up to which its objects are drawn; beyond a half of
     /// it they thin out by rank.
     pub reach_m: Vec<f64>,
@@ -89,6 +93,7 @@ fn reach_m(placement: &Placement, quality: Quality) -> f64 {
 /// Cells of earlier views.
 #[derive(Debug, Default)]
 pub(crate) struct SceneryCache {
+    models: Mutex<HashMap<Key, Arc<Model>>>,
     cells: Mutex<HashMap<(u16, NodeId), Arc<SceneryCell>>>,
 }
 
@@ -106,6 +111,16 @@ impl SceneryCache {
         cells.insert((cell.population, cell.id), cell.clone());
     }
 
+    /// The model of a population, if it is kept, or one that is made now.
+    fn model(&self, population: &Population, may_make: bool) -> Option<Arc<Model>> {
+        let mut models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = Model::key_of(population);
+        if !models.contains_key(&key) && may_make {
+            models.insert(key, Arc::new(Model::new(population)));
+        }
+        models.get(&key).cloned()
+    }
+
     /// Forgets cells that a view does not need, if there are too many.
     fn trim(&self, scenery: &Scenery) {
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
@@ -113,6 +128,11 @@ impl SceneryCache {
         let kept: usize = cells.values().map(|cell| 4 + cell.objects.len()).sum();
         if kept > MOST_KEPT {
             *cells = scenery.cells.iter().map(|cell| ((cell.population, cell.id), cell.clone())).collect();
+        }
+        drop(cells);
+        let mut models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
+        if models.len() > 2 * MAX_POPULATIONS {
+            models.retain(|key, _| scenery.models.iter().flatten().any(|model| model.key == *key));
         }
     }
 
@@ -130,6 +150,12 @@ struct Needed<'a> {
     away_m: f64,
 }
 
+impl Needed<'_> {
+    fn soil_node(&self) -> Option<NodeId> {
+        self.placement.soil_node(self.id)
+    }
+}
+
 impl Scenery {
     /// The scenery of a view as far as it is kept, and the rest, nearest cells first, while `keep_going` says yes.
     /// Whether all of it is there now.
@@ -140,7 +166,9 @@ impl Scenery {
         keep_going: &(dyn Fn() -> bool + Sync),
     ) -> (Self, bool) {
         let placements = Placement::all(terrain.planet());
-        let mut scenery = Self { cells: Vec::new(), reach_m: vec![0.0; terrain.planet().life.len()] };
+        let mut scenery = Self { cells: Vec::new(), ..Self::default() };
+        let populations = terrain.planet().life.len();
+        (scenery.reach_m, scenery.models) = (vec![0.0; populations], vec![None; populations]);
         if placements.is_empty() {
             return (scenery, true);
         }
@@ -148,20 +176,33 @@ impl Scenery {
             scenery.reach_m[usize::from(placement.index)] = reach_m(placement, view.quality);
         }
         let needed = needed(terrain, view, &placements);
+        let mut is_whole = true;
+        for placement in &placements {
+            // From afar, nothing is drawn.
+            if needed.iter().any(|needed| needed.placement.index == placement.index) {
+                let model = cache.model(&placement.population, keep_going());
+                is_whole &= model.is_some();
+                scenery.models[usize::from(placement.index)] = model;
+            }
+        }
         let mut found: Vec<Option<Arc<SceneryCell>>> =
             needed.iter().map(|needed| cache.known(needed.placement.index, needed.id, needed.key)).collect();
         let lacking: Vec<usize> = (0..needed.len()).filter(|i| found[*i].is_none()).collect();
         // In rounds, which keeps the order and can be stopped in between.
-        let round = 8 * rayon::current_num_threads().max(1);
-        let mut is_whole = true;
+        let round = 32 * rayon::current_num_threads().max(1);
+        let mut soils = Soils::default();
         for round in lacking.chunks(round) {
             if !keep_going() {
                 is_whole = false;
                 break;
             }
+            soils.add(terrain, round.iter().filter_map(|i| needed[*i].soil_node()));
             let made: Vec<(usize, Arc<SceneryCell>)> = round
                 .par_iter()
-                .map_init(PlacementScratch::default, |memory, i| (*i, Arc::new(make(terrain, &needed[*i], memory))))
+                .map_init(PlacementScratch::default, |memory, i| {
+                    let soil = soils.get(needed[*i].soil_node());
+                    (*i, Arc::new(make(terrain, &needed[*i], soil, memory)))
+                })
                 .collect();
             for (i, cell) in made {
                 cache.keep(&cell);
@@ -197,7 +238,7 @@ fn needed<'a>(terrain: &Terrain, view: &View, placements: &'a [Placement]) -> Ve
         if flat_m <= 0.0 {
             continue;
         }
-        let own = Key::of(&(rules, &placement.population));
+        let own = Key::of(&(rules, placement.population.placed()));
         let side_m = placement.grid.side_m;
         for id in placement.grid.cells_within(dir, flat_m) {
             let middle = id.direction(0.5, 0.5);
@@ -216,9 +257,9 @@ fn needed<'a>(terrain: &Terrain, view: &View, placements: &'a [Placement]) -> Ve
     needed
 }
 
-fn make(terrain: &Terrain, needed: &Needed<'_>, memory: &mut PlacementScratch) -> SceneryCell {
+fn make(terrain: &Terrain, needed: &Needed<'_>, soil: Option<&Soil>, memory: &mut PlacementScratch) -> SceneryCell {
     let planet_m = terrain.planet().radius_m();
-    let instances = needed.placement.place(terrain, needed.id, memory);
+    let instances = needed.placement.place(terrain, needed.id, soil, memory);
     let objects: Vec<SceneryObject> = instances.iter().map(|instance| object(instance, planet_m)).collect();
     let middle = objects.iter().map(|object| object.foot_planet_m).sum::<DVec3>() / objects.len().max(1) as f64;
     let reach = |object: &SceneryObject| object.foot_planet_m.distance(middle) + f64::from(object.size_m) * 1.5;

@@ -34,12 +34,8 @@ impl Suitability {
         if !self.biomes.get(sample.biome).is_some_and(|stands| *stands) {
             return 0.0;
         }
-        if !population.in_water {
-            let is_wet = sample.water_level_m.is_some_and(|level_m| level_m > sample.height_m);
-            let is_shore = self.sea_m.is_some_and(|sea_m| sample.height_m < sea_m + population.shore_m);
-            if is_wet || is_shore {
-                return 0.0;
-            }
+        if !self.is_dry(sample) {
+            return 0.0;
         }
         let slope_deg = sample.slope_rad.to_degrees();
         let above_m = sample.height_m - self.sea_m.unwrap_or(0.0);
@@ -47,6 +43,13 @@ impl Suitability {
             * between(above_m, population.height_from_m, population.height_to_m, SOFT_M)
             * between(sample.temperature_c, population.temperature_from_c, population.temperature_to_c, SOFT_C)
             * between(sample.moisture, population.moisture_from, population.moisture_to, SOFT_MOISTURE)
+    }
+
+    /// Whether a place is dry enough: neither in water nor on the shore, unless the population stands in water.
+    pub(super) fn is_dry(&self, sample: &Sample) -> bool {
+        let is_wet = sample.water_level_m.is_some_and(|level_m| level_m > sample.height_m);
+        let is_shore = self.sea_m.is_some_and(|sea_m| sample.height_m < sea_m + self.population.shore_m);
+        self.population.in_water || !(is_wet || is_shore)
     }
 
     /// Share of the objects that groups leave at a direction: from `1 - clumping` to `1 + clumping`, over the greatest.

@@ -11,12 +11,14 @@ use std::task::{Context, Poll, Waker};
 pub(crate) enum Slot {
     Uniform,
     Sampler,
+    Comparison,
     Float2d,
     Float2dArray,
     Float3d,
     Cube,
     CubeArray,
     Depth,
+    DepthArray,
     /// A float texture that is loaded without filtering.
     Unfiltered2d,
 }
@@ -30,7 +32,7 @@ pub(crate) fn layout(device: &wgpu::Device, label: &str, slots: &[Slot]) -> wgpu
         .zip(slots)
         .map(|(binding, slot)| wgpu::BindGroupLayoutEntry {
             binding,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
             ty: match slot {
                 Slot::Uniform => wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Uniform,
@@ -38,12 +40,14 @@ pub(crate) fn layout(device: &wgpu::Device, label: &str, slots: &[Slot]) -> wgpu
                     min_binding_size: None,
                 },
                 Slot::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                Slot::Comparison => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
                 Slot::Float2d => texture(float, wgpu::TextureViewDimension::D2),
                 Slot::Float2dArray => texture(float, wgpu::TextureViewDimension::D2Array),
                 Slot::Float3d => texture(float, wgpu::TextureViewDimension::D3),
                 Slot::Cube => texture(float, wgpu::TextureViewDimension::Cube),
                 Slot::CubeArray => texture(float, wgpu::TextureViewDimension::CubeArray),
                 Slot::Depth => texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2),
+                Slot::DepthArray => texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2Array),
                 Slot::Unfiltered2d => {
                     texture(wgpu::TextureSampleType::Float { filterable: false }, wgpu::TextureViewDimension::D2)
                 }
@@ -275,6 +279,17 @@ pub(crate) fn checked<T>(device: &wgpu::Device, name: &str, make: impl FnOnce() 
         Poll::Ready(Some(error)) => Err(RenderError::Shader(format!("shaders/{name}: {error}"))),
         Poll::Ready(None) | Poll::Pending => Ok(made),
     }
+}
+
+/// The sampler of shadow maps: the share of texels that are farther than a depth.
+pub(crate) fn comparison_sampler(device: &wgpu::Device) -> wgpu::Sampler {
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("comparison"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(wgpu::CompareFunction::LessEqual),
+        ..wgpu::SamplerDescriptor::default()
+    })
 }
 
 /// The two samplers of every pass, both linear: clamped to the edge, and repeated.

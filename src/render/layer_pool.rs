@@ -53,7 +53,7 @@ impl LayerKind {
     pub(crate) fn layout(&self, device: &wgpu::Device) -> wgpu::BindGroupLayout {
         let entry = |(binding, _)| wgpu::BindGroupLayoutEntry {
             binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
+            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
             ty: wgpu::BindingType::Texture {
                 sample_type: wgpu::TextureSampleType::Float { filterable: true },
                 view_dimension: wgpu::TextureViewDimension::D2Array,

@@ -8,7 +8,7 @@
 //! - `passes`: the list of all passes; `screen_pass`: a pass over all pixels; `targets`: the textures between them
 //! - `variant`: pipelines leave out what a body does not need; `nearness`: what no pixel resolves from afar
 //! - opaque stage: `morph` (compute), `terrain` with `ground_view`, `body_tiles`, `pool`, `layer_pool`, `detail_pool`,
-//!   `horizon_pool`; then `water`
+//!   `horizon_pool`; then `life` (objects on the ground) and `water`
 //! - air stage: `clouds`, `air`, `aurora`; `copy` where there is no air
 //! - post-process: `exposure` (compute), `bloom`, `tonemap` with `tone` and `white_balance`, `antialias`, `display`
 //! - `history`: what a view keeps for its next frame: clouds while the camera moves, and `still`, the mean of a still
@@ -43,6 +43,7 @@ mod history;
 mod horizon_pool;
 mod layer_pool;
 mod legend;
+mod life;
 mod luts;
 mod material_kinds;
 mod material_maps;
@@ -106,4 +107,6 @@ pub struct FrameStats {
     pub tiles_drawn: usize,
     /// Triangles drawn.
     pub triangles: usize,
+    /// Objects drawn that stand on the ground.
+    pub objects_drawn: usize,
 }

@@ -2,8 +2,8 @@
 
 use super::screen_pass::{ScreenPass, ScreenPipeline, Shared};
 use super::{
-    RenderError, air, antialias, aurora, bloom, clouds, copy, display, exposure, luts, morph, still, terrain, tonemap,
-    water,
+    RenderError, air, antialias, aurora, bloom, clouds, copy, display, exposure, life, luts, morph, still, terrain,
+    tonemap, water,
 };
 
 /// Passes of the opaque stage that follow the ground, for each body.
@@ -18,6 +18,7 @@ pub(crate) struct Pipelines {
     pub(crate) luts: luts::LutPipelines,
     pub(crate) morph: morph::MorphPass,
     pub(crate) terrain: terrain::TerrainPass,
+    pub(crate) life: life::LifePass,
     pub(crate) opaque: Vec<ScreenPipeline>,
     pub(crate) air: Vec<ScreenPipeline>,
     /// Stands in for the air stage where it draws nothing.
@@ -38,6 +39,7 @@ impl Pipelines {
             luts: luts::LutPipelines::new(device, shared)?,
             morph: morph::MorphPass::new(device)?,
             terrain: terrain::TerrainPass::new(device, shared)?,
+            life: life::LifePass::new(device, shared)?,
             opaque: make(OPAQUE)?,
             air: make(AIR)?,
             copy: ScreenPipeline::new(device, shared, &copy::PASS)?,

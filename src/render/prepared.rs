@@ -1,6 +1,7 @@
 //! A frame whose uniforms, tiles and LUTs are on the GPU: the stages that the caller records.
 
 use super::clouds;
+use super::life::LifeTargets;
 use super::renderer::{Renderer, ViewResources};
 use super::scene::BodyId;
 use super::screen_pass::{Drawing, ScreenPipeline, Work};
@@ -140,6 +141,11 @@ impl<'r> PreparedFrame<'r> {
             let drawn = pass.draw((device, encoder), &self.renderer.indices, groups, tiles, &ground)?;
             stats.tiles_drawn += drawn.tiles_drawn;
             stats.triangles += drawn.triangles;
+            let over = LifeTargets { radiance, surface, depth, viewport_px: self.plan.viewport_px };
+            let objects = (&resources.models, &body_view.life);
+            let drawn = self.renderer.pipelines.life.draw((device, encoder), &body_view.group, objects, &over);
+            stats.triangles += drawn.triangles;
+            stats.objects_drawn += drawn.objects_drawn;
             for pass in self.running(&self.renderer.pipelines.opaque, &body.work) {
                 pass.draw(
                     encoder,

@@ -4,6 +4,7 @@ use super::bloom::Bloom;
 use super::body_tiles::BodyTiles;
 use super::ground_view::GroundView;
 use super::history::{CloudFrame, CloudHistory, Progress, Still};
+use super::life::{Cascades, LifeModels, LifeView, ShadowMap};
 use super::luts::{LutRuns, Luts, Patterns};
 use super::passes::Pipelines;
 use super::prepared::{Plan, PlannedBody, PreparedFrame};
@@ -43,13 +44,31 @@ pub struct Renderer {
 struct UniformGroups {
     layout: wgpu::BindGroupLayout,
     samplers: [wgpu::Sampler; 2],
+    comparison: wgpu::Sampler,
+    /// Stands in where no object casts a shadow.
+    no_shadows: ShadowMap,
 }
 
 impl UniformGroups {
-    fn group(&self, device: &wgpu::Device, frame: &UniformBuffer, body: &UniformBuffer) -> wgpu::BindGroup {
-        let [clamped, repeated] = self.samplers.each_ref().map(wgpu::BindingResource::Sampler);
+    fn new(device: &wgpu::Device) -> Self {
+        let samplers = gpu::samplers(device);
+        let (comparison, no_shadows) = (gpu::comparison_sampler(device), ShadowMap::new(device, 1));
+        Self { layout: uniforms::layout(device), samplers, comparison, no_shadows }
+    }
+
+    fn group(
+        &self,
+        device: &wgpu::Device,
+        frame: &UniformBuffer,
+        body: &UniformBuffer,
+        shadows: Option<&ShadowMap>,
+    ) -> wgpu::BindGroup {
+        use wgpu::BindingResource::{Sampler, TextureView};
+        let [clamped, repeated] = self.samplers.each_ref().map(Sampler);
         let buffers = [frame.buffer.as_entire_binding(), body.buffer.as_entire_binding()];
-        gpu::group(device, "uniforms", &self.layout, buffers.into_iter().chain([clamped, repeated]))
+        let shadows = TextureView(&shadows.unwrap_or(&self.no_shadows).view);
+        let rest = [clamped, repeated, shadows, Sampler(&self.comparison)];
+        gpu::group(device, "uniforms", &self.layout, buffers.into_iter().chain(rest))
     }
 }
 
@@ -57,6 +76,7 @@ impl UniformGroups {
 pub(crate) struct BodyResources {
     pub(crate) tiles: BodyTiles,
     pub(crate) luts: Luts,
+    pub(crate) models: LifeModels,
     /// Views that have drawn the body in this frame of it.
     drawn_by: HashSet<ViewId>,
 }
@@ -81,6 +101,8 @@ pub(crate) struct BodyView {
     /// Group 0 of the passes that draw the body.
     pub(crate) group: wgpu::BindGroup,
     pub(crate) ground: GroundView,
+    pub(crate) life: LifeView,
+    pub(crate) shadows: Option<ShadowMap>,
     /// The clouds of the frames before, if they are kept.
     pub(crate) clouds: Option<CloudHistory>,
     /// What the body needs in this frame.
@@ -109,7 +131,7 @@ impl Renderer {
     /// # Errors
     /// [`RenderError::Shader`]: the driver rejects a shader.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, RenderError> {
-        let shared = UniformGroups { layout: uniforms::layout(device), samplers: gpu::samplers(device) };
+        let shared = UniformGroups::new(device);
         let patterns = Patterns::new(device, queue);
         let pipelines = Pipelines::new(device, Shared { uniforms: &shared.layout, luts: &patterns.layout })?;
         Ok(Self {
@@ -226,7 +248,8 @@ impl Renderer {
         let device = &self.device;
         let view = self.views.entry(id).or_insert_with(|| {
             let frame = UniformBuffer::new::<uniforms::Frame>(device, "frame");
-            let group = self.shared.group(device, &frame, &UniformBuffer::new::<uniforms::Body>(device, "no body"));
+            let group =
+                self.shared.group(device, &frame, &UniformBuffer::new::<uniforms::Body>(device, "no body"), None);
             ViewResources {
                 frame,
                 group,
@@ -264,7 +287,7 @@ impl Renderer {
         self.reload_shaders();
         let mut plan = plan(scene, drawn, has_own_targets);
         let (device, queue) = (&self.device, &self.queue);
-        let group = |frame: &UniformBuffer, body: &UniformBuffer| self.shared.group(device, frame, body);
+        let shared = &*self.shared;
         let Some(view) = self.views.get_mut(&scene.view_id) else { return Err(not_there()) };
         let picture_px = [drawn.viewport_px[2], drawn.viewport_px[3]];
         if plan.makes_bloom && !view.bloom.fits(picture_px) {
@@ -288,8 +311,9 @@ impl Renderer {
                 self.bodies.entry(body.id).or_insert_with(|| BodyResources::new(device, queue, &self.patterns));
             let body_view = view.bodies.entry(body.id).or_insert_with(|| {
                 let uniforms = UniformBuffer::new::<uniforms::Body>(device, "body");
-                let group = group(&view.frame, &uniforms);
-                BodyView { uniforms, group, ground: GroundView::new(device), clouds: None, variant: Variant::FIRST }
+                let group = shared.group(device, &view.frame, &uniforms, None);
+                let (ground, life) = (GroundView::new(device), LifeView::default());
+                BodyView { uniforms, group, ground, life, shadows: None, clouds: None, variant: Variant::FIRST }
             });
             let mut values = uniforms::body(scene, body, drawn, number == 0);
             let terrain = &*body.surface.terrain;
@@ -306,6 +330,14 @@ impl Renderer {
                 drift_rad: uniforms::clouds::drift_rad(body.planet(), scene.time_secs),
             };
             planned.work.carries_clouds = CloudHistory::prepare(&mut body_view.clouds, device, &clouds, &mut values);
+            let cascades = Cascades::new(scene, body);
+            if let Some(cascades) = &cascades {
+                cascades.write(&mut values);
+                if body_view.shadows.as_ref().is_none_or(|map| map.side_px != cascades.side_px) {
+                    let map = body_view.shadows.insert(ShadowMap::new(device, cascades.side_px));
+                    body_view.group = shared.group(device, &view.frame, &body_view.uniforms, Some(map));
+                }
+            }
             let body_written = body_view.uniforms.write(queue, &values);
             resources.luts.runs.uniforms += u64::from(frame_written || body_written);
             resources.begin_view(scene.view_id);
@@ -320,6 +352,17 @@ impl Renderer {
                 (&body.revision, scene.drafts),
                 body.marked.as_ref(),
             );
+            let life = &mut body_view.life;
+            if matches!(scene.debug_view, DebugView::Shaded | DebugView::Albedo) {
+                let (models, tiles) = (&mut resources.models, &mut resources.tiles);
+                life.prepare((device, queue), models, tiles, body, &lod_view, cascades.as_ref());
+                let objects = (&resources.models, &*life, cascades.as_ref().zip(body_view.shadows.as_ref()));
+                self.pipelines.life.cast(device, encoder, objects);
+                let groups = [&body_view.group, resources.luts.group()];
+                self.pipelines.life.light(device, encoder, groups, &resources.tiles, life);
+            } else {
+                life.clear();
+            }
             if let Some(map) = scene.debug_view.map() {
                 resources.luts.show_map((device, queue), &self.patterns, map, &body.surface.terrain);
             }
@@ -396,7 +439,7 @@ impl Renderer {
 
     /// Group 0 of a frame and a body.
     pub(crate) fn uniform_group(&self, frame: &UniformBuffer, body: &UniformBuffer) -> wgpu::BindGroup {
-        self.shared.group(&self.device, frame, body)
+        self.shared.group(&self.device, frame, body, None)
     }
 
     fn reload_shaders(&mut self) {
@@ -420,7 +463,7 @@ impl Renderer {
 impl BodyResources {
     fn new(device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns) -> Self {
         let luts = Luts::new(device, queue, patterns);
-        Self { tiles: BodyTiles::new(device), luts, drawn_by: HashSet::new() }
+        Self { tiles: BodyTiles::new(device), luts, models: LifeModels::default(), drawn_by: HashSet::new() }
     }
 
     /// A view that draws the body for the second time begins a new frame of it.

@@ -222,10 +222,10 @@ impl UniformBuffer {
     }
 }
 
-/// Layout of group 0: frame, body, and the two samplers.
+/// Layout of group 0: frame, body, the two samplers, and the shadows of objects with their sampler.
 pub(crate) fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    use gpu::Slot::{Sampler, Uniform};
-    gpu::layout(device, "uniforms", &[Uniform, Uniform, Sampler, Sampler])
+    use gpu::Slot::{Comparison, DepthArray, Sampler, Uniform};
+    gpu::layout(device, "uniforms", &[Uniform, Uniform, Sampler, Sampler, DepthArray, Comparison])
 }
 
 #[cfg(test)]

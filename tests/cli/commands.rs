@@ -81,9 +81,21 @@ fn help_and_version_are_no_errors() {
 #[test]
 fn negative_values_hear_the_range_of_their_option() {
     let mut asked = 0;
-    for command in
-        ["render", "film", "sample", "nearest", "bake", "mesh", "tiles", "rivers", "coasts", "sky", "system", "new"]
-    {
+    for command in [
+        "render",
+        "film",
+        "sample",
+        "nearest",
+        "bake",
+        "mesh",
+        "tiles",
+        "rivers",
+        "coasts",
+        "instances",
+        "sky",
+        "system",
+        "new",
+    ] {
         let (_, help, _) = run(&[command, "--help"]);
         let names = help.lines().filter_map(|line| line.trim_start().strip_prefix("--"));
         let names: Vec<&str> = names

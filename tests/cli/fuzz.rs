@@ -88,6 +88,11 @@ const COMMANDS: [(&str, Options, Options); 10] = [
         &[("--spacing", &["90000"]), ("-o", &["c.geojson"])],
     ),
     (
+        "instances",
+        &[("--kind", &["Trees"]), ("--km", &["0.2"])],
+        &[("--lat", &["5"]), ("--lon", &["6"]), ("-o", &["o.csv", "o.geojson"])],
+    ),
+    (
         "sky",
         &[("--azimuth", &["40"]), ("--altitude", &["2000"]), ("--json", &[])],
         &[("--sun-zenith", &["50"]), ("--view-zenith", &["80"])],

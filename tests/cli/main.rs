@@ -6,6 +6,7 @@
 //! - `disk`: disks that are full or read-only
 //! - `sets`: sets of files: damaged, finished, incomplete; threads and progress
 //! - `readback`: every map, format and projection
+//! - `instances`: plants and stones of a region
 //! - `rivers`: rivers as GeoJSON, many points
 //! - `outputs`: outputs that are inputs, links, addresses; nothing is lost
 //! - `mesh`: meshes against `tellus sample`
@@ -28,6 +29,7 @@ mod fuzz;
 #[cfg(unix)]
 mod hostile;
 mod house;
+mod instances;
 mod interface;
 mod mesh;
 #[cfg(unix)]

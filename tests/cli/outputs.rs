@@ -81,6 +81,7 @@ fn no_output_replaces_an_input() {
     for (args, more) in [
         (["coasts", "mine.geojson", "-o", "mine.geojson"], &["--height", "1"][..]),
         (["coasts", "mine.ron", "-o", "link.geojson"], &["--height", "1"]),
+        (["instances", "mine.geojson", "-o", "mine.geojson"], &["--lat", "1", "--lon", "1"]),
         (["render", "mine.ron", "-o", "height.png"], &["--size", "16x16"]),
         (["render", "mine.ron", "-o", "maps/height.png"], &["--size", "16x16"]),
         (["render", "mine.png", "-o", "mine.png"], &["--size", "16x16"]),

@@ -1,6 +1,6 @@
 //! Edits of the palette and the biome table. Every key in the table stays a key of the palette.
 
-use crate::planet::{Biome, Biomes, MAX_BIOMES, Table, TableRows};
+use crate::planet::{Biome, Biomes, MAX_BIOMES, Planet, Table, TableRows};
 
 /// Adds a biome with a free key. Gives its index, or None if the palette is full.
 pub fn add(biomes: &mut Biomes) -> Option<usize> {
@@ -14,32 +14,34 @@ pub fn add(biomes: &mut Biomes) -> Option<usize> {
     Some(biomes.palette.len() - 1)
 }
 
-/// Removes a biome; its cells become those of `replacement`. The last biome stays.
-pub fn remove(biomes: &mut Biomes, index: usize, replacement: usize) -> bool {
-    let (Some(old), Some(new)) = (biomes.palette.get(index), biomes.palette.get(replacement)) else { return false };
+/// Removes a biome; its cells, and its place in rules and populations, become those of `replacement`. The last biome
+/// stays.
+pub fn remove(planet: &mut Planet, index: usize, replacement: usize) -> bool {
+    let palette = &planet.biomes.palette;
+    let (Some(old), Some(new)) = (palette.get(index), palette.get(replacement)) else { return false };
     if index == replacement {
         return false;
     }
     let (old, new) = (old.key, new.key);
-    biomes.replace_key(old, new);
-    biomes.palette.remove(index);
+    planet.replace_biome_key(old, new);
+    planet.biomes.palette.remove(index);
     true
 }
 
-/// Gives a biome another key, in the table and in the surface rules too.
+/// Gives a biome another key, in the table, in the surface rules and in populations too.
 ///
 /// # Errors
 /// Why the biome cannot have that key; nothing changes then.
-pub fn rekey(biomes: &mut Biomes, index: usize, key: char) -> Result<(), String> {
+pub fn rekey(planet: &mut Planet, index: usize, key: char) -> Result<(), String> {
     if !key.is_ascii_graphic() || matches!(key, '"' | '\\') {
         return Err(format!("{key:?} cannot be a key; use a letter, a digit or a punctuation mark"));
     }
-    if let Some(other) = biomes.palette.iter().find(|biome| biome.key == key) {
+    if let Some(other) = planet.biomes.palette.iter().find(|biome| biome.key == key) {
         return Err(format!("{key:?} is the key of {}; use another", other.name));
     }
-    let Some(biome) = biomes.palette.get_mut(index) else { return Ok(()) };
+    let Some(biome) = planet.biomes.palette.get_mut(index) else { return Ok(()) };
     let old = std::mem::replace(&mut biome.key, key);
-    biomes.replace_key(old, key);
+    planet.replace_biome_key(old, key);
     Ok(())
 }
 
@@ -97,6 +99,7 @@ fn is_free(biomes: &Biomes, key: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::planet::Population;
 
     fn biomes() -> Biomes {
         let biome = |key| Biome { key, ..Biome::default() };
@@ -107,17 +110,18 @@ mod tests {
 
     #[test]
     fn removing_replaces_and_rekeying_follows() {
-        let mut biomes = biomes();
-        biomes.snow_key = 'b';
-        assert!(rekey(&mut biomes, 1, 'a').unwrap_err().contains("is the key of Ground"));
-        assert!(rekey(&mut biomes, 1, '"').unwrap_err().contains("cannot be a key"));
-        assert_eq!(rekey(&mut biomes, 1, 'z'), Ok(()));
-        assert_eq!(biomes.snow_key, 'z');
-        assert_eq!(biomes.table.key(3, 0), Some('z'));
-        assert!(!remove(&mut biomes, 1, 1));
-        assert!(remove(&mut biomes, 1, 0));
-        assert_eq!((biomes.table.key(3, 0), biomes.snow_key), (Some('a'), 'a'));
-        assert_eq!(biomes.palette.len(), 1);
+        let life = vec![Population { biomes: "ab".to_owned(), ..Population::default() }];
+        let mut planet = Planet { biomes: biomes(), life, ..Planet::default() };
+        planet.biomes.snow_key = 'b';
+        assert!(rekey(&mut planet, 1, 'a').unwrap_err().contains("is the key of Ground"));
+        assert!(rekey(&mut planet, 1, '"').unwrap_err().contains("cannot be a key"));
+        assert_eq!(rekey(&mut planet, 1, 'z'), Ok(()));
+        assert_eq!((planet.biomes.snow_key, planet.life[0].biomes.as_str()), ('z', "az"));
+        assert_eq!(planet.biomes.table.key(3, 0), Some('z'));
+        assert!(!remove(&mut planet, 1, 1));
+        assert!(remove(&mut planet, 1, 0));
+        assert_eq!((planet.biomes.table.key(3, 0), planet.biomes.snow_key), (Some('a'), 'a'));
+        assert_eq!((planet.biomes.palette.len(), planet.life[0].biomes.as_str()), (1, "a"));
     }
 
     #[test]

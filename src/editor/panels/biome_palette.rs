@@ -91,16 +91,16 @@ fn toolbar(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) {
         let sea = draft.survey.filter(|survey| survey.sea > SEA_SHOWN);
         ui.weak(sea.map_or_else(String::new, |survey| format!("of the land; {} is sea", percent(survey.sea))));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let biomes = &mut draft.planet.biomes;
+            let planet = &mut *draft.planet;
             let mut label = None;
-            ui.add_enabled_ui(biomes.palette.len() > 1, |ui| {
+            ui.add_enabled_ui(planet.biomes.palette.len() > 1, |ui| {
                 menu_button(ui, "Remove", |ui| {
                     ui.weak("Its cells become");
-                    for replacement in 0..biomes.palette.len() {
-                        let name = biomes.palette[replacement].name.clone();
+                    for replacement in 0..planet.biomes.palette.len() {
+                        let name = planet.biomes.palette[replacement].name.clone();
                         if replacement != state.selected && ui.button(name).clicked() {
                             let index = std::mem::replace(&mut state.selected, replacement);
-                            biome_edit::remove(biomes, index, replacement);
+                            biome_edit::remove(planet, index, replacement);
                             state.selected -= usize::from(replacement > index);
                             label = Some("Remove biome");
                             ui.close();
@@ -109,8 +109,8 @@ fn toolbar(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) {
                     }
                 });
             });
-            if ui.add_enabled(biomes.palette.len() < MAX_BIOMES, egui::Button::new("Add biome")).clicked() {
-                state.selected = biome_edit::add(biomes).unwrap_or(state.selected);
+            if ui.add_enabled(planet.biomes.palette.len() < MAX_BIOMES, egui::Button::new("Add biome")).clicked() {
+                state.selected = biome_edit::add(&mut planet.biomes).unwrap_or(state.selected);
                 label = Some("Add biome");
             }
             if let Some(label) = label {

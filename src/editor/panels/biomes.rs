@@ -268,7 +268,7 @@ fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
     let mut default = Biome { name: name.clone(), ..Biome::default() };
     params_grid(ui, &grid, biome, &mut default);
     if key != biome.key {
-        let refused = biome_edit::rekey(&mut draft.planet.biomes, index, key).err();
+        let refused = biome_edit::rekey(draft.planet, index, key).err();
         if refused.is_none() {
             draft.name_edit("Change key of biome");
         }

@@ -7,7 +7,7 @@ const TABS: usize = PANELS.len();
 /// The tab that is open at the start: the terrain.
 pub const FIRST_TAB: usize = 1;
 /// The version of the stored layout. Another one is not read.
-const VERSION: &str = "3";
+const VERSION: &str = "4";
 
 /// A place for tabs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -9,6 +9,7 @@
 //! - [`parts`]: planet, star, climate, and the optional parts; [`structure`]: plates, weather, rivers
 //! - [`sculpt`], [`edit_list`], [`edit_points`]: tools, the list of ground edits, the points of one
 //! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers, and edits of their list
+//! - [`life`]: populations of plants, stones and other objects
 //! - [`biomes`], [`biome_table`], [`biome_canvas`], [`biome_palette`], [`biome_edit`]: the biome table: the tab, the
 //!   table under the pointer, its picture, the palette, edits of both
 
@@ -24,6 +25,7 @@ pub mod finding;
 pub mod layer_edit;
 pub mod layers;
 pub mod layout;
+pub mod life;
 pub mod masks;
 pub mod parts;
 pub mod sculpt;
@@ -108,7 +110,7 @@ impl Panel {
 }
 
 /// The tabs, in the order shown.
-pub static PANELS: [Panel; 12] = [
+pub static PANELS: [Panel; 13] = [
     Panel::new("Planet", "", |ui, _, draft| parts::planet(ui, draft)),
     Panel::new("Terrain", "layers", |ui, state, draft| layers::show(ui, &mut state.layers, draft)).staying_from(320.0),
     Panel::new("Sculpt", "edits", |ui, state, draft| sculpt::show(ui, &mut state.sculpt, draft)).sculpting(),
@@ -120,6 +122,7 @@ pub static PANELS: [Panel; 12] = [
     Panel::new("Biomes", "biomes", |ui, state, draft| biomes::show(ui, &mut state.biomes, draft))
         .painting()
         .staying_from(560.0),
+    Panel::new("Life", "life", |ui, state, draft| life::show(ui, &mut state.life, draft)).staying_from(320.0),
     Panel::new("Water", "water", |ui, state, draft| parts::water(ui, &mut state.turned_off, draft)),
     Panel::new("Atmosphere", "atmosphere", |ui, state, draft| parts::atmosphere(ui, &mut state.turned_off, draft)),
     Panel::new("Clouds", "clouds", |ui, state, draft| parts::clouds(ui, &mut state.turned_off, draft)),
@@ -172,6 +175,7 @@ pub struct PanelState {
     layers: layers::LayersState,
     /// The biomes tab.
     pub biomes: biomes::BiomesState,
+    life: life::LifeState,
     structure: structure::StructureState,
     /// The sculpt tab.
     pub sculpt: sculpt::SculptState,
@@ -305,6 +309,7 @@ impl PanelState {
         self.finding.reveal(tab, path.clone(), name);
         match path.segments() {
             [Segment::Field("layers"), Segment::Index(index), ..] => self.layers.select(*index),
+            [Segment::Field("life"), Segment::Index(index), ..] => self.life.selected = *index,
             [Segment::Field("edits"), Segment::Index(index), ..] => self.sculpt.select(*index),
             [Segment::Field("biomes"), Segment::Field("palette"), Segment::Index(index), ..] => {
                 self.biomes.palette.selected = *index;

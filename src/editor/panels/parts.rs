@@ -9,8 +9,9 @@ use crate::editor::widgets::row_view::RowView;
 use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::planet::param::{ParamPath, Params, Segment, Unit};
 use crate::planet::{
-    Atmosphere, Climate, Clouds, Giant, GroundEdits, Layer, Planet, Rings, STAR_KELVIN, STARTING_AIRS, STARTING_GIANTS,
-    STARTING_RINGS, STARTING_SEAS, STARTING_SKIES, Star, Starting, Structure, Water, star_color, star_kelvin,
+    Atmosphere, Climate, Clouds, Giant, GroundEdits, Layer, Planet, Population, Rings, STAR_KELVIN, STARTING_AIRS,
+    STARTING_GIANTS, STARTING_RINGS, STARTING_SEAS, STARTING_SKIES, Star, Starting, Structure, Water, star_color,
+    star_kelvin,
 };
 use eframe::egui;
 
@@ -32,6 +33,7 @@ pub struct TurnedOff {
 struct Ground {
     layers: Vec<Layer>,
     edits: GroundEdits,
+    life: Vec<Population>,
     structure: Option<Structure>,
     water: Option<Water>,
 }
@@ -194,13 +196,14 @@ pub fn giant(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_
             turned_off.ground = Some(Ground {
                 layers: std::mem::take(&mut planet.layers),
                 edits: std::mem::take(&mut planet.edits),
+                life: std::mem::take(&mut planet.life),
                 structure: planet.structure.take(),
                 water: planet.water.take(),
             });
         }
         (true, false) => {
             if let Some(ground) = turned_off.ground.take() {
-                (planet.layers, planet.edits) = (ground.layers, ground.edits);
+                (planet.layers, planet.edits, planet.life) = (ground.layers, ground.edits, ground.life);
                 (planet.structure, planet.water) = (ground.structure, ground.water);
             }
         }

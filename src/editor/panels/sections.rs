@@ -67,6 +67,18 @@ const BIOME: &[Section] = &[
     folded("Glow and flow", &["glow", "glow_color", "flow_m_s"]),
 ];
 
+const POPULATION: &[Section] = &[
+    open("Form", &["form"]),
+    open("Size and colour", &["height_m", "height_spread", "color", "leaf_color", "color_spread"]),
+    open("Place", &["biomes", "slope_from_deg", "slope_to_deg", "shore_m", "in_water"]),
+    folded(
+        "Climate and height",
+        &["temperature_from_c", "temperature_to_c", "moisture_from", "moisture_to", "height_from_m", "height_to_m"],
+    ),
+    folded("Groups", &["clumping", "clump_m", "seed"]),
+    folded("Stance", &["upright", "lean_deg", "sunk", "sway", "solid"]),
+];
+
 const PLATES: &[Section] = &[
     open("Layout", &["seed", "count", "size_variation", "raggedness", "drift_mm_yr"]),
     open("Land", &["continents", "fragments", "mountains_m", "belt_km", "plateau_km", "old_belts_m", "inland_m"]),
@@ -123,6 +135,7 @@ pub fn sections_of(path: &ParamPath) -> &'static [Section] {
         [] => PLANET,
         [Field("layers"), Index(_)] => LAYER,
         [Field("edits"), Index(_)] | [Field("brush")] => EDIT,
+        [Field("life"), Index(_)] => POPULATION,
         [Field("star")] => STAR,
         [Field("climate")] => CLIMATE,
         [Field("biomes")] => BIOMES,
@@ -141,7 +154,9 @@ pub fn sections_of(path: &ParamPath) -> &'static [Section] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Atmosphere, Biome, Biomes, Climate, Clouds, Giant, Layer, Planet, Plates, Rings, Star, Water};
+    use crate::planet::{
+        Atmosphere, Biome, Biomes, Climate, Clouds, Giant, Layer, Planet, Plates, Population, Rings, Star, Water,
+    };
 
     #[test]
     fn every_field_of_a_section_exists_and_stands_in_one_section() {
@@ -149,6 +164,7 @@ mod tests {
         let parts = [
             (PLANET, names(Planet::PARAMS)),
             (LAYER, [names(Layer::PARAMS), vec!["shape"]].concat()),
+            (POPULATION, [names(Population::PARAMS), vec!["form"]].concat()),
             (STAR, names(Star::PARAMS)),
             (CLIMATE, names(Climate::PARAMS)),
             (BIOMES, names(Biomes::PARAMS)),

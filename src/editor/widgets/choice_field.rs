@@ -49,7 +49,40 @@ pub fn biome_box(ui: &mut egui::Ui, name: &str, key: &mut char, biomes: &[BiomeN
         .accessible_name(name);
 }
 
-fn swatch(ui: &egui::Ui, rect: egui::Rect, color: [f64; 3]) {
+/// Keys of biomes: the colours of the palette, of which a click adds or takes one. Without any, all count.
+pub fn biome_boxes(ui: &mut egui::Ui, name: &str, keys: &mut String, biomes: &[BiomeName]) {
+    let size = ui.spacing().interact_size.y;
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = egui::Vec2::splat(1.0);
+        for biome in biomes {
+            let (rect, response) = ui.allocate_exact_size(egui::Vec2::splat(size), egui::Sense::click());
+            let is_in = keys.contains(biome.key);
+            swatch(ui, rect, biome.color);
+            let stroke = match is_in {
+                true => egui::Stroke::new(2.0, ui.visuals().strong_text_color()),
+                false => egui::Stroke::new(1.0, ui.visuals().widgets.noninteractive.bg_stroke.color),
+            };
+            ui.painter().rect_stroke(rect.shrink(2.0), 3.0, stroke, egui::StrokeKind::Inside);
+            if response.clicked() {
+                match is_in {
+                    true => keys.retain(|key| key != biome.key),
+                    false => keys.push(biome.key),
+                }
+            }
+            let told = if is_in { "in" } else { "not in" };
+            let response = response.on_hover_text(format!("{}: {told}", biome.name));
+            let info =
+                || egui::WidgetInfo::selected(egui::Role::CheckBox, true, is_in, format!("{name}: {}", biome.name));
+            response.widget_info(info);
+        }
+        if keys.is_empty() {
+            ui.weak(" all");
+        }
+    });
+}
+
+/// Paints a colour (linear sRGB) into a rectangle.
+pub fn swatch(ui: &egui::Ui, rect: egui::Rect, color: [f64; 3]) {
     let [r, g, b] = color.map(|component| component as f32);
     ui.painter().rect_filled(rect.shrink(3.0), 3.0, egui::Rgba::from_rgb(r, g, b));
 }

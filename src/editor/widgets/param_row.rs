@@ -3,7 +3,7 @@
 //! The row knows the parameter by its [`Param`] alone. Its widgets have accessible names such as "Amplitude of
 //! Continents"; that of the number beside a slider is "Amplitude of Continents as a number".
 
-use super::choice_field::{biome_box, choice_box};
+use super::choice_field::{biome_box, biome_boxes, choice_box};
 use super::color_field::{color_button, hex_field};
 use super::curve_edit::CurveEdit;
 use super::curve_view::CurveView;
@@ -335,6 +335,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> (bool,
             ui.weak(row.param.unit.symbol());
         }
         (Domain::BiomeKey, ValueMut::Letter(key)) => biome_box(ui, &name, key, row.biomes),
+        (Domain::BiomeKeys, ValueMut::Text(keys)) => biome_boxes(ui, &name, keys, row.biomes),
         (_, ValueMut::Flag(v)) => {
             focus(ui.add(egui::Checkbox::without_text(v)).accessible_name(&name));
         }

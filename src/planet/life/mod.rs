@@ -1,12 +1,15 @@
 //! What stands on the ground: populations of plants, stones and other objects. `crate::life` places them.
 //!
 //! - `forms`: the forms of objects, and the parameters of each
+//! - `ready`: populations to start from
 
 mod forms;
+mod ready;
 
 pub use forms::{
     Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, Form, Mushroom, Palm, Stone, Tendrils, Tree, Tuft,
 };
+pub use ready::{READY_POPULATIONS, ReadyPopulation};
 
 use super::Planet;
 use super::param::{Domain, ParamPath, Segment, Stage, Unit, linear, log, params};
@@ -80,6 +83,12 @@ params! {
 }
 
 impl Population {
+    /// The parameters that decide where the objects stand, and how large they are; defaults for the rest.
+    pub(crate) fn placed(&self) -> Self {
+        let Self { name, color, leaf_color, sway, solid, form, .. } = Self::default();
+        Self { name, color, leaf_color, sway, solid, form, ..self.clone() }
+    }
+
     /// Swaps the ends of ranges that are out of order.
     pub(crate) fn mend_ranges(&mut self) {
         for (from, to) in [

@@ -4,6 +4,7 @@ use super::constants::{
     BAND_ENTRIES, BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_OCCLUDERS, MAX_POINTS, MAX_STORMS, MAX_SUNS,
     RING_CLASSES, RING_ENTRIES, VARIATION_OCTAVES, WAVES,
 };
+use crate::render::life::CASCADES;
 use crate::render::wgsl::uniform_struct;
 use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
 
@@ -374,6 +375,12 @@ uniform_struct! {
         marked: u32,
         /// 1 where there are rivers and lakes.
         has_rivers: u32,
+        /// Metres from the eye to clip space of each cascade of the shadows of objects.
+        shadow_from_rel_m: [Mat4; CASCADES],
+        /// Width of a texel of each cascade.
+        shadow_texel_m: Vec2,
+        /// 1 where objects cast shadows.
+        has_shadows: u32,
     }
 }
 

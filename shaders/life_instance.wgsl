@@ -1,0 +1,26 @@
+// An object that stands on the ground, as the CPU writes it (src/render/life/view.rs).
+#include "shared.wgsl"
+
+struct Instance {
+    // Foot of the form, metres from the eye
+    foot_rel_m: vec3f,
+    // Height of the form, metres
+    size_m: f32,
+    // Quaternion that turns the form (z up) into the planet frame, four signed 16-bit numbers
+    turn: vec2u,
+    // Square roots of the two colours of the form, 8 bits each; the last bytes: sway, 255 for 0.5, and its phase
+    colors: vec2u,
+    // Place in the horizon tile, two unsigned 16-bit numbers; then its layer (0xffff without one), and in the upper
+    // half the code of its first tangent axis
+    horizon: vec2u,
+    padding: vec2u,
+}
+
+// Light on an object: irradiance of the sun and of the sky.
+struct ObjectLight {
+    sun: vec3f,
+    // Visible share of the sun's disc over the surrounding ground
+    visible: f32,
+    sky: vec3f,
+    padding: f32,
+}

@@ -1,0 +1,116 @@
+//! Forms of plants and stones: meshes made from a few parameters and a seed.
+//!
+//! | File | Purpose |
+//! |---|---|
+//! | `build`, `math`, `random` | meshes, arithmetic and random numbers, the same on every machine |
+//! | `tube`, `leaf`, `sphere`, `grow`, `clump` | parts that several kinds share |
+//! | `sight` | what is seen from the side, for levels of detail that match |
+//! | `tree`, `crown`, `conifer`, `palm`, `tuft`, `cushion`, `cactus`, `mushroom` | kinds of plant |
+//! | `stone`, `crystal` | kinds of rock |
+//! | `bulbs`, `fans`, `tendrils` | kinds of strange life |
+
+mod build;
+mod bulbs;
+mod cactus;
+mod clump;
+mod conifer;
+mod crown;
+mod crystal;
+mod cushion;
+mod fans;
+mod grow;
+mod leaf;
+mod math;
+mod mushroom;
+mod palm;
+mod random;
+mod sight;
+mod sphere;
+mod stone;
+mod tendrils;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod tube;
+mod tuft;
+
+use crate::planet::Form;
+use build::Detail;
+pub use build::{Mesh, Vertex};
+
+/// Number of levels of detail: 0 is the nearest.
+pub const LEVELS: usize = 4;
+
+impl Form {
+    /// Largest number of triangles of a level.
+    pub fn budget(&self, level: usize) -> usize {
+        let table = if matches!(self, Form::Tuft(_)) { [120, 40, 12, 4] } else { [4000, 700, 140, 28] };
+        table[level.min(LEVELS - 1)]
+    }
+
+    /// Builder of this form's meshes; what all levels share is made only once.
+    fn builder(&self, seed: u32) -> Box<dyn Fn(&Detail) -> Mesh + '_> {
+        match self {
+            Form::Tree(form) => {
+                let plan = tree::plan(form, seed);
+                Box::new(move |detail| tree::build(&plan, detail))
+            }
+            Form::Fans(form) => {
+                let plan = fans::plan(form, seed);
+                Box::new(move |detail| fans::build(&plan, detail))
+            }
+            Form::Conifer(form) => Box::new(|detail| conifer::build(form, detail)),
+            Form::Palm(form) => Box::new(|detail| palm::build(form, detail)),
+            Form::Tuft(form) => Box::new(|detail| tuft::build(form, detail)),
+            Form::Cushion(form) => Box::new(|detail| cushion::build(form, detail)),
+            Form::Cactus(form) => Box::new(|detail| cactus::build(form, detail)),
+            Form::Mushroom(form) => Box::new(|detail| mushroom::build(form, detail)),
+            Form::Stone(form) => Box::new(|detail| stone::build(form, detail)),
+            Form::Crystal(form) => Box::new(|detail| crystal::build(form, detail)),
+            Form::Bulbs(form) => Box::new(|detail| bulbs::build(form, detail)),
+            Form::Tendrils(form) => Box::new(|detail| tendrils::build(form, detail)),
+        }
+    }
+}
+
+/// Builder of a form's meshes.
+type Builder<'a> = dyn Fn(&Detail) -> Mesh + 'a;
+
+/// Mesh of a form at one level of detail; `seed` already mixes the variant.
+pub fn mesh(form: &Form, seed: u32, level: usize) -> Mesh {
+    let build = form.builder(seed);
+    let near = build(&Detail { level: 0, seed, fill: 1.0 }).fit();
+    if level == 0 { near } else { matched(&*build, seed, level.min(LEVELS - 1), &sight::look(&near)) }
+}
+
+/// Meshes of a form at all levels of detail: faster than one by one.
+pub fn meshes(form: &Form, seed: u32) -> [Mesh; LEVELS] {
+    let build = form.builder(seed);
+    let near = build(&Detail { level: 0, seed, fill: 1.0 }).fit();
+    let sight = sight::look(&near);
+    let far = |level| matched(&*build, seed, level, &sight);
+    let (a, b, c) = (far(1), far(2), far(3));
+    [near, a, b, c]
+}
+
+/// Mesh of a coarser level that covers as much as the near one, with the same mean colours and light.
+fn matched(build: &Builder, seed: u32, level: usize, near: &sight::Sight) -> Mesh {
+    let mut fill = 1.0_f32;
+    let mut best: Option<(f32, Mesh, sight::Sight)> = None;
+    for _ in 0..6 {
+        let mesh = build(&Detail { level, seed, fill }).fit();
+        let seen = sight::look(&mesh);
+        let ratio = near.cover / seen.cover.max(1e-3);
+        let miss = (ratio - 1.0).abs();
+        if best.as_ref().is_none_or(|(least, _, _)| miss < *least) {
+            best = Some((miss, mesh, seen));
+        }
+        if miss < 0.03 {
+            break;
+        }
+        fill = (fill * math::pow(ratio, 1.5).clamp(0.4, 2.5)).clamp(0.05, 12.0);
+    }
+    let (_, mut mesh, seen) = best.unwrap_or_default();
+    seen.adapt(near, &mut mesh);
+    mesh
+}

@@ -1,0 +1,30 @@
+//! Models: the meshes of a population's form, in all variants and levels of detail.
+
+use super::form::{self, Mesh};
+use crate::planet::{Form, Key, Population};
+use rayon::prelude::*;
+
+/// The meshes of a population.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Model {
+    /// Content key of the form and the seed.
+    pub key: Key,
+    /// For each variant, its levels of detail, nearest first. Height 1, z up, the foot at the origin.
+    pub variants: Vec<[Mesh; form::LEVELS]>,
+}
+
+impl Model {
+    /// The key of the model of a population.
+    pub(super) fn key_of(population: &Population) -> Key {
+        Key::of(&(&population.form, population.seed))
+    }
+
+    /// Makes the meshes of a population, on all cores.
+    pub fn new(population: &Population) -> Self {
+        let seed = |variant: u32| population.seed.wrapping_mul(0x9E37_79B1) ^ variant.wrapping_mul(0x85EB_CA77);
+        let variants = (0..Form::VARIANTS).into_par_iter();
+        let variants = variants.map(|variant| form::meshes(&population.form, seed(variant))).collect();
+        Self { key: Self::key_of(population), variants }
+    }
+}

@@ -1,0 +1,110 @@
+//! Soil: what the ground offers on a grid of points in a node, from which populations take their density.
+//!
+//! A population that is denser than a few objects in a node reads this grid and interpolates; only where an object
+//! stands is the ground evaluated once more.
+
+use super::suitability::Suitability;
+use crate::planet::Planet;
+use crate::sphere::NodeId;
+use crate::terrain::{Sample, Scratch, Terrain, Wanted};
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_2;
+
+/// Points along a side of a node.
+const SIDE: usize = 5;
+/// Longest side of a node, metres.
+const NODE_M: f64 = 90.0;
+/// Metres from a river beyond its banks within which single objects are checked for water.
+const NEAR_RIVER_M: f64 = 40.0;
+/// Metres over the sea within which single objects are checked for water.
+const NEAR_SEA_M: f64 = 25.0;
+
+/// What the ground offers in a node.
+#[derive(Clone, Debug)]
+pub(super) struct Soil {
+    id: NodeId,
+    samples: Vec<Sample>,
+    /// Whether no water is near, so that objects need not be checked for it.
+    pub(super) is_dry: bool,
+}
+
+impl Soil {
+    /// The level of nodes whose soil is known.
+    pub(super) fn level(planet: &Planet) -> u8 {
+        let mut side_m = FRAC_PI_2 * planet.radius_m();
+        let mut level = 0;
+        while side_m > NODE_M && level < NodeId::MAX_LEVEL {
+            (level, side_m) = (level + 1, 0.5 * side_m);
+        }
+        level
+    }
+
+    /// Samples the ground of a node.
+    pub(super) fn new(terrain: &Terrain, id: NodeId, scratch: &mut Scratch) -> Self {
+        let share = |number: usize| number as f64 / (SIDE - 1) as f64;
+        let dirs: Vec<_> = (0..SIDE * SIDE).map(|i| id.direction(share(i % SIDE), share(i / SIDE))).collect();
+        let mut samples = vec![Sample::default(); dirs.len()];
+        terrain.samples_spaced_into(&dirs, 0.0, Wanted::ALL, &mut samples, scratch);
+        let sea_m = terrain.planet().sea_level_m();
+        let is_dry = samples.iter().all(|sample| {
+            let by_river = sample.river.is_some_and(|river| river.distance_m < 0.5 * river.width_m + NEAR_RIVER_M);
+            let by_sea = sea_m.is_some_and(|sea_m| sample.height_m < sea_m + NEAR_SEA_M);
+            sample.water_level_m.is_none() && !by_river && !by_sea
+        });
+        Self { id, samples, is_dry }
+    }
+
+    /// What a population finds in the node; None if it stands nowhere there.
+    pub(super) fn offered(&self, suitability: &Suitability) -> Option<Offer> {
+        let shares: Vec<f64> = self.samples.iter().map(|sample| suitability.at(sample)).collect();
+        shares.iter().any(|share| *share > 0.0).then_some(Offer { id: self.id, shares })
+    }
+}
+
+/// The share of its density that a population has at the points of a node.
+pub(super) struct Offer {
+    id: NodeId,
+    shares: Vec<f64>,
+}
+
+impl Offer {
+    /// The share at a place of a cell in the node, between the points.
+    pub(super) fn at(&self, cell: NodeId, place: [f64; 2]) -> f64 {
+        let [width, x, y] = cell.within(self.id);
+        let last = (SIDE - 1) as f64;
+        let at = [x + place[0] * width, y + place[1] * width].map(|share| (share * last).clamp(0.0, last));
+        let corner = at.map(|at| (at as usize).min(SIDE - 2));
+        let part = [at[0] - corner[0] as f64, at[1] - corner[1] as f64];
+        let share = |across: usize, up: usize| self.shares[(corner[1] + up) * SIDE + corner[0] + across];
+        let row = |up: usize| share(0, up) + (share(1, up) - share(0, up)) * part[0];
+        row(0) + (row(1) - row(0)) * part[1]
+    }
+}
+
+/// The soil of many nodes.
+#[derive(Default)]
+pub(super) struct Soils(HashMap<NodeId, Soil>);
+
+impl Soils {
+    /// The soil of some nodes, each sampled once, on all cores.
+    pub(super) fn of(terrain: &Terrain, nodes: impl Iterator<Item = NodeId>) -> Self {
+        let mut soils = Self::default();
+        soils.add(terrain, nodes);
+        soils
+    }
+
+    /// Adds the soil of nodes that are not there yet.
+    pub(super) fn add(&mut self, terrain: &Terrain, nodes: impl Iterator<Item = NodeId>) {
+        let mut missing: Vec<NodeId> = nodes.filter(|node| !self.0.contains_key(node)).collect();
+        missing.sort_unstable();
+        missing.dedup();
+        let made = missing.par_iter().map_init(Scratch::default, |scratch, id| (*id, Soil::new(terrain, *id, scratch)));
+        self.0.extend(made.collect::<Vec<_>>());
+    }
+
+    /// The soil of a node.
+    pub(super) fn get(&self, node: Option<NodeId>) -> Option<&Soil> {
+        self.0.get(&node?)
+    }
+}

@@ -1,0 +1,471 @@
+//! Populations to start from, one for each kind of plant and stone.
+
+use super::{
+    Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, Form, Mushroom, Palm, Population, Stone, Tendrils, Tree,
+    Tuft,
+};
+
+/// A population to start from.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct ReadyPopulation {
+    /// Its name.
+    pub name: &'static str,
+    make: fn() -> Population,
+}
+
+impl ReadyPopulation {
+    /// The population, in all biomes that its climate suits.
+    pub fn population(&self) -> Population {
+        Population { name: self.name.to_owned(), ..(self.make)() }
+    }
+
+    /// A ready population by its name.
+    pub fn named(name: &str) -> Option<Population> {
+        READY_POPULATIONS.iter().find(|ready| ready.name == name).map(Self::population)
+    }
+}
+
+/// A tree of its main parameters, in the order of [`Tree`].
+fn tree(crown: Crown, shape: [f64; 3], leaves: [f64; 2], irregular: f64) -> Form {
+    let [crown_width, trunk, trunk_width] = shape;
+    let [leaves, leaf_size] = leaves;
+    Form::Tree(Tree { crown, crown_width, trunk, trunk_width, leaves, leaf_size, irregular })
+}
+
+/// A tuft: blades; width, spread and arch; share of seed heads; leaflets.
+fn tuft(blades: u32, shape: [f64; 3], head: f64, leaflets: bool) -> Form {
+    let [width, spread, arch] = shape;
+    Form::Tuft(Tuft { blades, width, spread, arch, head, leaflets })
+}
+
+/// A stone: roundness, flatness, stretch; cuts; layers, roughness.
+fn stone(shape: [f64; 3], cuts: u32, skin: [f64; 2]) -> Form {
+    let [roundness, flatness, stretch] = shape;
+    let [layers, roughness] = skin;
+    Form::Stone(Stone { roundness, flatness, stretch, cuts, layers, roughness })
+}
+
+/// A form with its height and its two colours, so many on a hectare, in groups: strength and size in metres.
+fn of(form: Form, height_m: f64, colors: [[f64; 3]; 2], per_hectare: f64, groups: [f64; 2]) -> Population {
+    let ([color, leaf_color], [clumping, clump_m]) = (colors, groups);
+    Population { form, height_m, color, leaf_color, per_hectare, clumping, clump_m, ..Population::default() }
+}
+
+/// A population that lies on the ground as stones do: turned with the slope, sunk, still.
+fn lying(population: Population) -> Population {
+    Population {
+        upright: 0.2,
+        lean_deg: 12.0,
+        sunk: 0.15,
+        sway: 0.0,
+        height_spread: 0.7,
+        color_spread: 0.3,
+        ..population
+    }
+}
+
+/// A population that no body hits.
+fn soft(population: Population) -> Population {
+    Population { solid: false, ..population }
+}
+
+impl Population {
+    fn temperatures(self, temperature_from_c: f64, temperature_to_c: f64) -> Self {
+        Self { temperature_from_c, temperature_to_c, ..self }
+    }
+
+    fn moistures(self, moisture_from: f64, moisture_to: f64) -> Self {
+        Self { moisture_from, moisture_to, ..self }
+    }
+
+    fn slopes(self, slope_from_deg: f64, slope_to_deg: f64) -> Self {
+        Self { slope_from_deg, slope_to_deg, ..self }
+    }
+}
+
+/// The populations to start from.
+pub const READY_POPULATIONS: &[ReadyPopulation] = &[
+    ReadyPopulation {
+        name: "Broadleaf tree",
+        make: || {
+            of(
+                tree(Crown::Round, [0.95, 0.2, 0.06], [0.95, 0.052], 0.5),
+                14.0,
+                [[0.10, 0.075, 0.055], [0.055, 0.1, 0.025]],
+                250.0,
+                [0.35, 90.0],
+            )
+            .temperatures(3.0, 32.0)
+            .moistures(0.35, 1.0)
+        },
+    },
+    ReadyPopulation {
+        name: "Conifer",
+        make: || {
+            of(
+                Form::Conifer(Conifer::default()),
+                18.0,
+                [[0.09, 0.06, 0.045], [0.032, 0.062, 0.024]],
+                450.0,
+                [0.35, 120.0],
+            )
+            .temperatures(-9.0, 12.0)
+            .moistures(0.28, 1.0)
+        },
+    },
+    ReadyPopulation {
+        name: "Pine",
+        make: || {
+            of(
+                tree(Crown::Round, [0.62, 0.42, 0.036], [0.8, 0.042], 1.0),
+                17.0,
+                [[0.17, 0.09, 0.05], [0.04, 0.075, 0.03]],
+                220.0,
+                [0.4, 100.0],
+            )
+            .temperatures(-4.0, 20.0)
+            .moistures(0.25, 0.8)
+        },
+    },
+    ReadyPopulation {
+        name: "Birch",
+        make: || {
+            of(
+                tree(Crown::Weeping, [0.5, 0.24, 0.026], [0.7, 0.04], 0.5),
+                13.0,
+                [[0.42, 0.4, 0.36], [0.08, 0.125, 0.03]],
+                260.0,
+                [0.5, 60.0],
+            )
+            .temperatures(-6.0, 14.0)
+            .moistures(0.3, 1.0)
+        },
+    },
+    ReadyPopulation {
+        name: "Poplar",
+        make: || {
+            of(
+                tree(Crown::Column, [0.27, 0.06, 0.032], [1.0, 0.045], 0.35),
+                20.0,
+                [[0.12, 0.1, 0.075], [0.055, 0.105, 0.028]],
+                120.0,
+                [0.6, 80.0],
+            )
+            .temperatures(4.0, 26.0)
+            .moistures(0.3, 0.9)
+        },
+    },
+    ReadyPopulation {
+        name: "Palm",
+        make: || {
+            of(Form::Palm(Palm::default()), 11.0, [[0.16, 0.125, 0.085], [0.06, 0.115, 0.026]], 120.0, [0.5, 60.0])
+                .temperatures(20.0, 60.0)
+                .moistures(0.25, 1.0)
+        },
+    },
+    ReadyPopulation {
+        name: "Acacia",
+        make: || {
+            of(
+                tree(Crown::Umbrella, [1.4, 0.36, 0.05], [0.8, 0.05], 0.4),
+                8.0,
+                [[0.1, 0.08, 0.06], [0.07, 0.1, 0.035]],
+                14.0,
+                [0.5, 200.0],
+            )
+            .temperatures(16.0, 45.0)
+            .moistures(0.12, 0.5)
+        },
+    },
+    ReadyPopulation {
+        name: "Dead tree",
+        make: || Population {
+            sway: 0.0,
+            ..of(
+                tree(Crown::Round, [0.75, 0.22, 0.07], [0.0, 0.05], 0.9),
+                9.0,
+                [[0.2, 0.17, 0.14], [0.2, 0.17, 0.14]],
+                5.0,
+                [0.3, 150.0],
+            )
+            .temperatures(-8.0, 40.0)
+        },
+    },
+    ReadyPopulation {
+        name: "Shrub",
+        make: || {
+            of(
+                tree(Crown::Round, [1.25, 0.0, 0.05], [0.85, 0.1], 0.6),
+                1.8,
+                [[0.1, 0.07, 0.05], [0.06, 0.1, 0.03]],
+                140.0,
+                [0.6, 30.0],
+            )
+            .temperatures(-6.0, 40.0)
+            .moistures(0.2, 1.0)
+        },
+    },
+    ReadyPopulation {
+        name: "Dry shrub",
+        make: || {
+            of(
+                tree(Crown::Round, [1.6, 0.0, 0.04], [0.3, 0.07], 0.9),
+                0.6,
+                [[0.16, 0.11, 0.075], [0.13, 0.11, 0.055]],
+                320.0,
+                [0.5, 25.0],
+            )
+            .temperatures(0.0, 60.0)
+            .moistures(0.05, 0.4)
+        },
+    },
+    ReadyPopulation {
+        name: "Grass",
+        make: || Population {
+            sway: 0.25,
+            ..soft(
+                of(
+                    tuft(24, [0.055, 0.55, 0.5], 0.0, false),
+                    0.3,
+                    [[0.09, 0.1, 0.035], [0.06, 0.11, 0.025]],
+                    60000.0,
+                    [0.5, 9.0],
+                )
+                .temperatures(-4.0, 40.0)
+                .moistures(0.2, 1.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Tall grass",
+        make: || Population {
+            sway: 0.25,
+            ..soft(
+                of(
+                    tuft(22, [0.028, 0.35, 0.4], 0.4, false),
+                    0.9,
+                    [[0.3, 0.24, 0.11], [0.2, 0.19, 0.07]],
+                    25000.0,
+                    [0.6, 14.0],
+                )
+                .temperatures(4.0, 45.0)
+                .moistures(0.12, 0.7),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Reeds",
+        make: || Population {
+            sway: 0.25,
+            ..soft(
+                of(
+                    tuft(20, [0.028, 0.14, 0.14], 0.35, false),
+                    2.0,
+                    [[0.14, 0.09, 0.05], [0.09, 0.13, 0.04]],
+                    30000.0,
+                    [0.7, 12.0],
+                )
+                .temperatures(2.0, 40.0)
+                .moistures(0.4, 1.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Fern",
+        make: || Population {
+            sway: 0.25,
+            ..soft(
+                of(
+                    tuft(9, [0.07, 0.8, 0.8], 0.0, true),
+                    0.6,
+                    [[0.06, 0.09, 0.025], [0.05, 0.115, 0.022]],
+                    2500.0,
+                    [0.6, 15.0],
+                )
+                .temperatures(4.0, 32.0)
+                .moistures(0.45, 1.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Moss cushion",
+        make: || Population {
+            sway: 0.0,
+            ..soft(
+                of(
+                    Form::Cushion(Cushion { lumps: 11, width: 3.4, lumpiness: 0.6, roughness: 0.4, leaves: 0.7 }),
+                    0.12,
+                    [[0.035, 0.055, 0.015], [0.08, 0.13, 0.03]],
+                    5000.0,
+                    [0.7, 8.0],
+                )
+                .temperatures(-10.0, 24.0)
+                .moistures(0.4, 1.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Column cactus",
+        make: || Population {
+            sway: 0.0,
+            ..of(Form::Cactus(Cactus::default()), 5.0, [[0.06, 0.1, 0.04], [0.35, 0.31, 0.2]], 30.0, [0.4, 120.0])
+                .temperatures(12.0, 60.0)
+                .moistures(0.02, 0.3)
+        },
+    },
+    ReadyPopulation {
+        name: "Barrel cactus",
+        make: || Population {
+            sway: 0.0,
+            ..of(
+                Form::Cactus(Cactus { ribs: 20, groove: 0.25, arms: 0, girth: 0.9, spines: 0.7 }),
+                0.7,
+                [[0.055, 0.095, 0.04], [0.42, 0.33, 0.17]],
+                60.0,
+                [0.4, 60.0],
+            )
+            .temperatures(12.0, 60.0)
+            .moistures(0.02, 0.3)
+        },
+    },
+    ReadyPopulation {
+        name: "Mushrooms",
+        make: || Population {
+            sway: 0.0,
+            ..soft(
+                of(
+                    Form::Mushroom(Mushroom::default()),
+                    0.15,
+                    [[0.5, 0.42, 0.31], [0.26, 0.1, 0.045]],
+                    250.0,
+                    [0.8, 12.0],
+                )
+                .temperatures(2.0, 28.0)
+                .moistures(0.4, 1.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Boulder",
+        make: || {
+            lying(of(
+                stone([0.5, 0.25, 1.25], 9, [0.0, 0.45]),
+                1.6,
+                [[0.2, 0.19, 0.17], [0.14, 0.135, 0.115]],
+                14.0,
+                [0.5, 120.0],
+            ))
+        },
+    },
+    ReadyPopulation {
+        name: "Stones",
+        make: || {
+            soft(lying(of(
+                stone([0.95, 0.45, 1.35], 4, [0.0, 0.15]),
+                0.25,
+                [[0.22, 0.205, 0.18], [0.17, 0.155, 0.14]],
+                900.0,
+                [0.6, 40.0],
+            )))
+        },
+    },
+    ReadyPopulation {
+        name: "Scree",
+        make: || {
+            lying(
+                of(
+                    stone([0.02, 0.6, 1.7], 11, [0.25, 0.2]),
+                    0.35,
+                    [[0.19, 0.18, 0.165], [0.13, 0.12, 0.11]],
+                    2500.0,
+                    [0.6, 30.0],
+                )
+                .slopes(24.0, 48.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Lava block",
+        make: || {
+            lying(
+                of(
+                    stone([0.15, 0.15, 1.2], 10, [0.0, 1.0]),
+                    1.1,
+                    [[0.035, 0.031, 0.03], [0.075, 0.05, 0.04]],
+                    80.0,
+                    [0.7, 90.0],
+                )
+                .slopes(0.0, 50.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Ice block",
+        make: || {
+            lying(
+                of(
+                    stone([0.05, 0.2, 1.35], 13, [0.1, 0.12]),
+                    1.4,
+                    [[0.5, 0.64, 0.72], [0.75, 0.8, 0.84]],
+                    18.0,
+                    [0.7, 150.0],
+                )
+                .temperatures(-200.0, -4.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Crystals",
+        make: || Population {
+            sway: 0.0,
+            upright: 0.5,
+            ..of(Form::Crystal(Crystal::default()), 1.0, [[0.16, 0.1, 0.24], [0.55, 0.42, 0.68]], 25.0, [0.8, 60.0])
+                .slopes(0.0, 60.0)
+        },
+    },
+    ReadyPopulation {
+        name: "Regolith stone",
+        make: || {
+            lying(
+                of(
+                    stone([0.6, 0.3, 1.15], 6, [0.0, 0.8]),
+                    0.4,
+                    [[0.16, 0.15, 0.14], [0.11, 0.105, 0.1]],
+                    260.0,
+                    [0.7, 60.0],
+                )
+                .slopes(0.0, 50.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Ventifact",
+        make: || {
+            lying(
+                of(
+                    stone([0.3, 0.4, 1.5], 4, [0.55, 0.12]),
+                    0.7,
+                    [[0.3, 0.2, 0.13], [0.22, 0.14, 0.09]],
+                    150.0,
+                    [0.6, 80.0],
+                )
+                .slopes(0.0, 45.0),
+            )
+        },
+    },
+    ReadyPopulation {
+        name: "Alien bulbs",
+        make: || of(Form::Bulbs(Bulbs::default()), 3.0, [[0.1, 0.06, 0.14], [0.5, 0.16, 0.22]], 70.0, [0.7, 50.0]),
+    },
+    ReadyPopulation {
+        name: "Alien fans",
+        make: || of(Form::Fans(Fans::default()), 2.5, [[0.16, 0.03, 0.12], [0.55, 0.2, 0.12]], 70.0, [0.7, 50.0]),
+    },
+    ReadyPopulation {
+        name: "Alien tendrils",
+        make: || {
+            of(Form::Tendrils(Tendrils::default()), 3.5, [[0.05, 0.07, 0.12], [0.12, 0.42, 0.36]], 60.0, [0.7, 50.0])
+        },
+    },
+];

@@ -1,0 +1,16 @@
+//! Objects that stand on the ground, in the opaque stage.
+//!
+//! - `models`: meshes on the GPU
+//! - `view`: which objects a view draws, at which level of detail
+//! - `shadow`: their shadows (`life_shadow.wgsl`)
+//! - `pass`: their light (`life_light.wgsl`, compute) and their drawing (`life.wgsl`)
+
+mod models;
+mod pass;
+mod shadow;
+mod view;
+
+pub(crate) use models::LifeModels;
+pub(crate) use pass::{LifePass, LifeTargets};
+pub(crate) use shadow::{CASCADES, Cascades, ShadowMap};
+pub(crate) use view::LifeView;

@@ -1,0 +1,290 @@
+//! The objects that a view draws: culled, thinned out by distance, each at the level of detail that its size in the
+//! picture needs.
+
+use super::{CASCADES, Cascades, LifeModels};
+use crate::life::form::LEVELS;
+use crate::life::scenery::{SceneryCell, SceneryObject, share_at};
+use crate::lod::horizon::HorizonTile;
+use crate::lod::tile::slope_axis;
+use crate::lod::{Culling, Quality, View};
+use crate::planet::{Form, Key, Population};
+use crate::render::body_tiles::BodyTiles;
+use crate::render::horizon_pool;
+use crate::render::layer_pool::LayerPlace;
+use crate::render::scene::{Body, height_range_m};
+use crate::sphere::NodeId;
+use glam::DVec3;
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// An object, as `life_instance.wgsl` describes it.
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(super) struct Instance {
+    foot_rel_m: [f32; 3],
+    size_m: f32,
+    turn: [i16; 4],
+    colors: [u8; 8],
+    place: [u16; 2],
+    layer: u16,
+    axis: u16,
+    padding: [u32; 2],
+}
+
+/// Instances of one mesh.
+pub(super) struct Draw {
+    pub(super) model: Key,
+    pub(super) variant: usize,
+    pub(super) level: usize,
+    pub(super) instances: Range<u32>,
+}
+
+/// Instances lit over one array of horizon tiles.
+pub(super) struct Lit {
+    pub(super) array: usize,
+    pub(super) instances: Range<u32>,
+}
+
+/// The objects of a body in one view.
+#[derive(Default)]
+pub(crate) struct LifeView {
+    pub(super) instances: Vec<Instance>,
+    pub(super) draws: Vec<Draw>,
+    pub(super) lit: Vec<Lit>,
+    /// Objects that cast shadows, and for each cascade what is drawn of them.
+    pub(super) casting: Vec<Instance>,
+    pub(super) casts: [Vec<Draw>; CASCADES],
+    pub(super) buffers: Option<super::pass::Buffers>,
+}
+
+/// Share of its size over which an object grows where it begins to be drawn.
+const GROWTH: f64 = 0.12;
+/// Layer of an object without a horizon tile.
+const NO_LAYER: u16 = u16::MAX;
+
+/// Heights in pixels from which levels 0, 1 and 2 are drawn.
+fn level_px(quality: Quality) -> [f64; LEVELS - 1] {
+    match quality {
+        Quality::Low => [360.0, 110.0, 24.0],
+        Quality::Medium => [240.0, 70.0, 15.0],
+        Quality::High => [170.0, 50.0, 12.0],
+    }
+}
+
+/// The place of objects on a horizon tile.
+struct Shade {
+    at: LayerPlace,
+    /// Width of the cell as a share of the tile, and its corner there.
+    within: [f64; 3],
+}
+
+impl LifeView {
+    /// Chooses the objects that `view` sees, and uploads what they need.
+    pub(crate) fn prepare(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        models: &mut LifeModels,
+        tiles: &mut BodyTiles,
+        body: &Body<'_>,
+        view: &View,
+        cascades: Option<&Cascades>,
+    ) {
+        self.clear();
+        let scenery = &body.surface.scenery;
+        if scenery.cells.is_empty() {
+            return;
+        }
+        models.upload(device, scenery.models.iter().flatten().map(|model| &**model));
+        let chosen = body.frozen.as_ref().unwrap_or(view);
+        let lowest_m = body.surface.terrain.planet().radius_m() + height_range_m(body.surface).0;
+        let culling = Culling::new(chosen, lowest_m.max(0.0));
+        let horizons = Horizons::new(body);
+        // By array of horizon tiles, model, variant and level.
+        let mut bins = Bins::new();
+        let mut casting: [Bins; CASCADES] = Default::default();
+        let planet = body.surface.terrain.planet();
+        let shown = body.planet();
+        for cell in &scenery.cells {
+            let index = usize::from(cell.population);
+            let (Some(Some(_)), Some(&reach_m)) = (scenery.models.get(index), scenery.reach_m.get(index)) else {
+                continue;
+            };
+            let eye = view.camera.position_planet_m;
+            let is_seen = culling.sees_sphere(cell.center_planet_m, cell.bounding_radius_m);
+            let casts = cascades.filter(|cascades| cascades.reaches(cell, eye));
+            if !is_seen && casts.is_none() {
+                continue;
+            }
+            // The colours of the newest planet, if it has the same populations.
+            let of = |planet: &crate::planet::Planet| planet.life.get(index).cloned();
+            let Some(population) = of(if shown.life.len() == planet.life.len() { shown } else { planet }) else {
+                continue;
+            };
+            let shade = horizons.of(cell).and_then(|tile| {
+                let at = tiles.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile))?;
+                Some(Shade { at, within: within(cell.id, tile.id) })
+            });
+            let array = shade.as_ref().map_or(0, |shade| shade.at.array);
+            let look = Look { population: &population, shade, axis: axis_code(cell.id) };
+            for object in &cell.objects {
+                let rel_m = object.foot_planet_m - eye;
+                let away_m = rel_m.length();
+                // The last objects of a distance grow from nothing.
+                let share = (1.0 + GROWTH) * share_at(away_m, reach_m);
+                let grown = ((share - f64::from(object.rank)) / GROWTH).clamp(0.0, 1.0);
+                if grown <= 0.0 {
+                    continue;
+                }
+                let size_m = f64::from(object.size_m) * grown;
+                let pixels = size_m / (away_m.max(0.1) * view.pixel_rad());
+                let limits = level_px(view.quality);
+                let level = limits.iter().position(|least| pixels > *least).unwrap_or(LEVELS - 1);
+                let variant = usize::from(object.variant).min(Form::VARIANTS as usize - 1);
+                let instance = look.instance(object, rel_m, size_m);
+                if is_seen {
+                    bins.entry((array, index, variant, level)).or_default().push(instance);
+                }
+                for (cascade, bins) in casting.iter_mut().enumerate() {
+                    if casts.is_some_and(|casts| casts.takes(cascade, rel_m, size_m)) {
+                        let level = (level + cascade + 1).min(LEVELS - 1);
+                        bins.entry((0, index, variant, level)).or_default().push(instance);
+                    }
+                }
+            }
+        }
+        let models: Vec<Option<Key>> =
+            scenery.models.iter().map(|model| model.as_ref().map(|model| model.key)).collect();
+        let lit = &mut self.lit;
+        draw_all(bins, &models, &mut self.instances, &mut self.draws, |array, span| match lit.last_mut() {
+            Some(last) if last.array == array => last.instances.end = span.end,
+            _ => lit.push(Lit { array, instances: span.clone() }),
+        });
+        for (draws, bins) in self.casts.iter_mut().zip(casting) {
+            draw_all(bins, &models, &mut self.casting, draws, |_, _| {});
+        }
+        super::pass::Buffers::write(&mut self.buffers, device, queue, [&self.instances, &self.casting]);
+    }
+
+    /// Forgets the objects: the view shows none.
+    pub(crate) fn clear(&mut self) {
+        self.instances.clear();
+        self.draws.clear();
+        self.lit.clear();
+        self.casting.clear();
+        self.casts.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Objects that are drawn.
+    pub(crate) fn count(&self) -> usize {
+        self.instances.len()
+    }
+
+    /// Memory of the buffers.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        self.buffers.as_ref().map_or(0, super::pass::Buffers::resident_bytes)
+    }
+}
+
+/// Instances by array of horizon tiles, population, variant and level.
+type Bins = HashMap<(usize, usize, usize, usize), Vec<Instance>>;
+
+/// Puts instances one after the other, in an order that does not depend on hashing. `each` is called with the array and
+/// the span of each bin.
+fn draw_all(
+    bins: Bins,
+    models: &[Option<Key>],
+    instances: &mut Vec<Instance>,
+    draws: &mut Vec<Draw>,
+    mut each: impl FnMut(usize, &Range<u32>),
+) {
+    let mut bins: Vec<_> = bins.into_iter().collect();
+    bins.sort_unstable_by_key(|(bin, _)| *bin);
+    for ((array, population, variant, level), members) in bins {
+        let first = instances.len() as u32;
+        instances.extend(members);
+        let span = first..instances.len() as u32;
+        each(array, &span);
+        if let Some(model) = models.get(population).copied().flatten() {
+            draws.push(Draw { model, variant, level, instances: span });
+        }
+    }
+}
+
+/// What the objects of a cell look like.
+struct Look<'a> {
+    population: &'a Population,
+    shade: Option<Shade>,
+    axis: u16,
+}
+
+impl Look<'_> {
+    fn instance(&self, object: &SceneryObject, rel_m: DVec3, size_m: f64) -> Instance {
+        let root = |color: [f64; 3]| {
+            color.map(|part| {
+                let bright = part * f64::from(object.brightness);
+                (bright.clamp(0.0, 1.0).sqrt() * 255.0).round() as u8
+            })
+        };
+        let population = self.population;
+        let [first, second] = [root(population.color), root(population.leaf_color)];
+        let sway = (population.sway.clamp(0.0, 0.5) * 510.0).round() as u8;
+        // Any number that differs from object to object.
+        let phase = (object.rank * 255.0) as u8;
+        let signed = |part: f32| (part.clamp(-1.0, 1.0) * 32767.0).round() as i16;
+        let at =
+            |part: f32, corner: f64, width: f64| ((corner + f64::from(part) * width).clamp(0.0, 1.0) * 65535.0) as u16;
+        let place = self.shade.as_ref().map_or([0; 2], |shade| {
+            let [width, x, y] = shade.within;
+            [at(object.place[0], x, width), at(object.place[1], y, width)]
+        });
+        Instance {
+            foot_rel_m: rel_m.as_vec3().to_array(),
+            size_m: size_m as f32,
+            turn: object.planet_from_form.to_array().map(signed),
+            colors: [first[0], first[1], first[2], sway, second[0], second[1], second[2], phase],
+            place,
+            layer: self.shade.as_ref().map_or(NO_LAYER, |shade| shade.at.layer as u16),
+            axis: self.axis,
+            padding: [0; 2],
+        }
+    }
+}
+
+/// The code of the first tangent axis of the face of a node: see `life_light.wgsl`.
+fn axis_code(id: NodeId) -> u16 {
+    let axis = slope_axis(id.face).to_array();
+    let index = axis.iter().position(|part| *part != 0.0).unwrap_or(0);
+    index as u16 + if axis[index] < 0.0 { 3 } else { 0 }
+}
+
+/// Width of a cell as a share of a node, and its corner there; either may lie within the other.
+fn within(cell: NodeId, node: NodeId) -> [f64; 3] {
+    if cell.level >= node.level {
+        return cell.within(node);
+    }
+    let [width, x, y] = node.within(cell);
+    [1.0 / width, -x / width, -y / width]
+}
+
+/// The horizon tiles of a surface, by node.
+struct Horizons<'a>(HashMap<NodeId, &'a HorizonTile>);
+
+impl<'a> Horizons<'a> {
+    fn new(body: &Body<'a>) -> Self {
+        let surface = body.surface;
+        let tiles = surface.leaves.iter().filter_map(|leaf| leaf.horizon.as_deref());
+        Self(tiles.map(|tile| (tile.id, tile)).collect())
+    }
+
+    /// The tile over the middle of a cell.
+    fn of(&self, cell: &SceneryCell) -> Option<&'a HorizonTile> {
+        let mut node = Some(NodeId::containing(cell.id.direction(0.5, 0.5), NodeId::MAX_LEVEL));
+        while let Some(id) = node {
+            if let Some(tile) = self.0.get(&id) {
+                return Some(tile);
+            }
+            node = id.parent();
+        }
+        None
+    }
+}
