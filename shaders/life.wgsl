@@ -26,6 +26,8 @@ struct Surface {
     @location(5) @interpolate(flat) sky: vec3f,
     // Position in the form; strength of the mottling
     @location(6) mottle: vec4f,
+    // Way towards the sun within the object's own leaves, which `look` already darkens
+    @location(7) @interpolate(flat) own_m: f32,
 }
 
 // Random number of a cell of a lattice.
@@ -71,6 +73,7 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     out.look = in.look.xy;
     out.sun = vec4f(light.sun, light.visible);
     out.sky = light.sky;
+    out.own_m = 0.1 * in.look.x * instance.size_m;
     // Coarse levels are smooth where fine ones have single leaves.
     out.mottle = vec4f(in.position * 11.0 + 64.0 * second.a, in.look.w * in.look.x);
     return out;
@@ -101,11 +104,14 @@ fn fragment(in: Surface) -> Output {
     // What sees little of the sky is shaded by the rest of the object.
     let lit = (front + behind) * smoothstep(0.0, 0.75, in.look.y);
     let open = (0.5 + 0.5 * dot(n, up)) * in.look.y;
-    let from_below = (in.sun.rgb * max(dot(up, l), 0.0) + in.sky) * (GROUND_ALBEDO * (1.0 - open) * in.look.y);
     let mottled = 1.0 + in.mottle.w * 1.3 * (lattice_noise(in.mottle.xyz) - 0.5);
     let albedo = in.albedo * mottled;
-    let sunlight = in.sun.rgb * object_light(in.rel_m, n);
-    let radiance = albedo * (sunlight * lit + in.sky * open + from_below) / PI;
+    let shade = object_shade(in.rel_m + l * in.own_m, n);
+    let sky = in.sky * mix(1.0, shade.sky, 1.0 - 0.6 * leaf);
+    let ground = in.sun.rgb * (max(dot(up, l), 0.0) * shade.sun) + sky;
+    let from_below = ground * (GROUND_ALBEDO * (1.0 - open) * in.look.y);
+    let through_leaves = in.sun.rgb * THROUGH_LEAVES * (1.0 - shade.sky) * open;
+    let radiance = albedo * (in.sun.rgb * (lit * shade.sun) + sky * open + through_leaves + from_below) / PI;
     let shown = select(radiance, in.albedo, frame.debug_view == VIEW_ALBEDO);
     let altitude_m = dot(in.rel_m, body.eye_up) + body.eye_altitude_km * 1000.0;
     let over_sea_m = clamp(altitude_m - body.sea_level_km * 1000.0, 1.0, 60000.0);

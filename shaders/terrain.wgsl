@@ -348,6 +348,9 @@ struct Facet {
     footprint_km: f32,
 }
 
+// What objects leave of the light at the pixel.
+var<private> objects: ObjectShade = NO_SHADE;
+
 // Radiance that the ground reflects of the active sun's light and of the sky lit by it.
 fn lit(ground: Material, facet: Facet, from_ground: Visibility) -> vec3f {
     let sun = active_sun.dir;
@@ -361,6 +364,7 @@ fn lit(ground: Material, facet: Facet, from_ground: Visibility) -> vec3f {
     let sky_share = overcast(clouds.straight, clouds.passed);
     let shadow = clouds.straight * from_ground.star;
     var sky = sky_irradiance(facet.altitude_km, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
+    sky += sunlight * THROUGH_LEAVES * (1.0 - objects.sky);
     // Light goes to and fro between ground and fog.
     let again = ground.albedo * clouds.returned;
     sky += (sky + sunlight * max(sun_mu, 0.0) * shadow) * again / (1.0 - again);
@@ -493,7 +497,9 @@ fn fragment(in: Ground) -> Output {
     let up = normalize(body.eye_km + in.rel_m * 0.001);
     use_sun(0u);
     var from_ground = visibility_at(in, up);
-    from_ground.star *= object_light(in.rel_m, normalize(in.normal));
+    objects = object_shade(in.rel_m, normalize(in.normal));
+    from_ground.star *= objects.sun;
+    from_ground.sky *= objects.sky;
     let shaded = shade(in, from_ground);
     let spread_m = min(shaded.spread_m, 60000.0);
     let surface = vec4f(in.level_climate.y, 1.0 - from_ground.star, spread_m, 0.0);

@@ -5,8 +5,8 @@ use super::layers::Blend;
 use super::param::{ParamPath, Segment};
 use super::shapes::CellStyle;
 use super::{
-    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Giant, GroundEdit, Layer, Planet, Rings, Shape, Steep,
-    Structure, TableRows, Tool, Water,
+    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Giant, GroundEdit, Layer, Planet, Population, Rings, Shape,
+    Steep, Structure, TableRows, Tool, Water,
 };
 
 const ONE_COPY: &str = "There is one copy only";
@@ -28,6 +28,9 @@ impl Planet {
             [Field("edits"), Index(index), Field("tool"), Field("random_turn_deg")] => {
                 self.edits.get(*index).and_then(|edit| when(edit.copies <= 1, ONE_COPY))
             }
+            [Field("life"), Index(index), Field(name)] => {
+                self.life.get(*index).and_then(|population| self.population_idle(population, name))
+            }
             [Field("climate"), Field(name)] => self.climate_idle(&self.climate, name),
             [Field("biomes"), Field("palette"), Index(index), Field(name)] => {
                 self.biomes.palette.get(*index).and_then(|biome| biome_idle(biome, name))
@@ -41,6 +44,15 @@ impl Planet {
             [Field("clouds"), Field(name)] => self.clouds.as_ref().and_then(|clouds| clouds_idle(clouds, name)),
             [Field("giant"), Field(name)] => self.giant.as_ref().and_then(|giant| giant_idle(giant, name)),
             [Field("rings"), Field(name)] => self.rings.as_ref().and_then(|rings| rings_idle(rings, name)),
+            _ => None,
+        }
+    }
+
+    fn population_idle(&self, population: &Population, name: &str) -> Idle {
+        match name {
+            "clump_m" => when(population.clumping <= 0.0, "Nothing is drawn together into groups"),
+            "shore_m" if population.in_water => Some("The objects stand in water, too"),
+            "shore_m" | "in_water" => when(self.water.is_none() && self.structure.is_none(), "There is no water"),
             _ => None,
         }
     }

@@ -4,6 +4,7 @@
 //! - `lands`: layers that suit a kind of world
 //! - `structure`: plates, weather and rivers of most wet worlds
 //! - `grounds`: biomes that suit a climate
+//! - `life`: plants and stones that suit the biomes
 //!
 //! [`random`] makes a planet: a few layers that build on each other, a climate, and biomes that suit it. [`vary`] moves
 //! the numbers of an existing planet. Both use the descriptions of parameters wherever those suffice.
@@ -11,6 +12,7 @@
 pub(crate) mod dice;
 mod grounds;
 mod lands;
+mod life;
 mod structure;
 
 use super::locks::Locks;
@@ -19,6 +21,9 @@ use super::{
     Atmosphere, Biomes, Climate, Clouds, GroundEdits, Layer, Mask, Planet, Population, Precision, Star, Water, validate,
 };
 use dice::{Dice, three_digits};
+
+/// Mixed into the seed of a planet for what stands on it.
+const LIFE_SEED: u64 = 0x6c69_6665;
 
 /// A random planet. Always valid; the same seed gives the same planet.
 pub fn random(seed: u64) -> Planet {
@@ -59,7 +64,7 @@ pub fn random_of(kind: Option<Kind>, seed: u64) -> Planet {
         wind_km_h: dice.rounded(-120.0, 120.0),
         ..Clouds::default()
     });
-    let planet = Planet {
+    let mut planet = Planet {
         name: dice.name(),
         seed: dice.seed(),
         radius_km,
@@ -80,6 +85,8 @@ pub fn random_of(kind: Option<Kind>, seed: u64) -> Planet {
         rings: None,
         editor: None,
     };
+    // Dice of their own: what stands on a planet decides nothing else.
+    planet.life = life::populations(kind, &planet.biomes, &mut Dice(seed ^ LIFE_SEED));
     debug_assert!(validate::problems(&planet).is_empty());
     planet
 }

@@ -365,12 +365,8 @@ fn painted_biomes(planet: &Planet, found: &mut Found) {
 }
 
 fn populations(planet: &Planet, found: &mut Found) {
-    let known: String = planet.biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
     for (index, population) in planet.life.iter().enumerate() {
         let mut add = |field, message| found.add(population_path(index).join(field), message);
-        if let Some(key) = population.biomes.chars().find(|key| planet.biomes.index_of(*key).is_none()) {
-            add("biomes", format!("{key:?} is no key of the palette; use those of `{known}`"));
-        }
         let ranges = [
             ("slope_to_deg", population.slope_from_deg, population.slope_to_deg, "slope_from_deg"),
             ("height_to_m", population.height_from_m, population.height_to_m, "height_from_m"),

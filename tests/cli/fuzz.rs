@@ -15,7 +15,7 @@ type Options = &'static [(&'static str, &'static [&'static str])];
 
 /// Commands that need no graphics device: their options, and those that are always there, because their defaults make
 /// much work.
-const COMMANDS: [(&str, Options, Options); 10] = [
+const COMMANDS: [(&str, Options, Options); 11] = [
     ("check", &[], &[]),
     (
         "sample",

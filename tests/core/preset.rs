@@ -99,7 +99,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
             "(\n    version: 3,\n    sead: 2,\n)",
             "f.ron:3:5: sead: there is no field `sead` here; did you mean `seed`? use `version`, \
              `ground_version`, `name`, `seed`, `radius_km`, `precision`, `settlements`, `height_curve`, `star`, \
-             `layers`, `edits`, `climate`, `biomes`, `structure`, `water`, `atmosphere`, `clouds`, \
+             `layers`, `edits`, `life`, `climate`, `biomes`, `structure`, `water`, `atmosphere`, `clouds`, \
              `giant`, `rings`, `editor`",
         ),
         (

@@ -79,13 +79,6 @@ impl Mesh {
         self.triangles.push([a, b, c]);
     }
 
-    /// Addition of another mesh's triangles.
-    pub(super) fn append(&mut self, other: &Mesh) {
-        let base = self.vertices.len().min(65_535) as u16;
-        self.vertices.extend_from_slice(&other.vertices);
-        self.triangles.extend(other.triangles.iter().map(|t| t.map(|i| i.saturating_add(base))));
-    }
-
     /// Highest z.
     pub(super) fn top(&self) -> f32 {
         self.vertices.iter().fold(f32::MIN, |top, v| top.max(v.position.z))

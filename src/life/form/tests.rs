@@ -1,10 +1,16 @@
 //! Tests of all kinds of form: validity, budgets, levels that match, and the same bits everywhere.
 
 use super::random::{Random, hash};
-use super::{
-    Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, Form, Mesh, Mushroom, Palm, READY, Stone, Tendrils, Tree,
-    Tuft, mesh, meshes, sight,
+use super::{Form, Mesh, mesh, meshes, sight};
+use crate::planet::life::{
+    Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, Mushroom, Palm, READY_POPULATIONS, Stone, Tendrils, Tree,
+    Tuft,
 };
+
+/// The ready forms by their names.
+fn ready() -> impl Iterator<Item = (&'static str, Form)> {
+    READY_POPULATIONS.iter().map(|ready| (ready.name, ready.population().form))
+}
 
 /// Number of kinds.
 const KINDS: u32 = 12;
@@ -168,8 +174,7 @@ fn random_parameters_give_valid_meshes() {
 
 #[test]
 fn one_level_is_the_same_as_all() {
-    for (_, make, ..) in READY.iter().step_by(5) {
-        let form = make();
+    for (_, form) in ready().step_by(5) {
         let all = meshes(&form, 11);
         for (level, one) in all.iter().enumerate() {
             assert_eq!(*one, mesh(&form, 11, level));
@@ -179,8 +184,7 @@ fn one_level_is_the_same_as_all() {
 
 #[test]
 fn levels_look_alike() {
-    for (name, make, ..) in READY {
-        let form = make();
+    for (name, form) in ready() {
         for seed in 0..3 {
             let all = meshes(&form, seed);
             let near = sight::look_from(&all[0], 8, 64);
@@ -200,8 +204,8 @@ fn levels_look_alike() {
 fn meshes_are_the_same_on_every_machine() {
     let mut sum = 0_u32;
     let mut add = |bits: u32| sum = hash(sum ^ bits);
-    for (_, make, ..) in READY {
-        for mesh in meshes(&make(), 5) {
+    for (_, form) in ready() {
+        for mesh in meshes(&form, 5) {
             for v in &mesh.vertices {
                 let numbers = [v.position.to_array(), v.normal.to_array(), [v.part, v.light, v.sway]];
                 numbers.iter().flatten().for_each(|x| add(x.to_bits()));
@@ -214,24 +218,26 @@ fn meshes_are_the_same_on_every_machine() {
 
 #[test]
 fn variants_differ() {
-    for (name, make, ..) in READY {
-        assert_ne!(mesh(&make(), 1, 0), mesh(&make(), 2, 0), "{name}");
+    for (name, form) in ready() {
+        assert_ne!(mesh(&form, 1, 0), mesh(&form, 2, 0), "{name}");
     }
 }
 
 #[test]
 fn ready_forms_are_plausible() {
-    for (name, _, height, first, second) in READY {
-        assert!(*height > 0.0 && *height < 60.0, "{name}");
-        assert!(first.iter().chain(second).all(|&c| c > 0.0 && c < 0.9), "{name}");
+    for ready in READY_POPULATIONS {
+        let population = ready.population();
+        assert!(population.height_m > 0.0 && population.height_m < 60.0, "{}", ready.name);
+        let colors = population.color.iter().chain(&population.leaf_color);
+        assert!(colors.into_iter().all(|part| *part > 0.0 && *part < 0.9), "{}", ready.name);
     }
 }
 
 #[test]
 fn solid_forms_face_outward() {
     let solid = ["Dead tree", "Column cactus", "Mushrooms", "Boulder", "Lava block", "Crystals", "Alien bulbs"];
-    for (name, make, ..) in READY.iter().filter(|r| solid.contains(&r.0) || r.0 == "Alien tendrils") {
-        for mesh in &meshes(&make(), 3)[..3] {
+    for (name, form) in ready().filter(|(name, _)| solid.contains(name) || *name == "Alien tendrils") {
+        for mesh in &meshes(&form, 3)[..3] {
             let mut volume = 0.0;
             let mut agree = 0;
             for t in &mesh.triangles {

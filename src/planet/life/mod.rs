@@ -30,7 +30,8 @@ params! {
         /// Objects on a hectare (100 m by 100 m) where everything suits them. A forest has 200 to 600 trees, a meadow
         /// 50000 tufts.
         per_hectare: f64 = 100.0, "Per hectare", Unit::None, log(0.001, 200_000.0), Stage::Life;
-        /// Keys of the biomes where the objects stand. Without a key they stand in all biomes.
+        /// Keys of the biomes where the objects stand. Without a key they stand in all biomes. A key that the palette
+        /// does not have counts for nothing, so that a population can go from planet to planet.
         biomes: String = String::new(), "Biomes", Unit::None, Domain::BiomeKeys, Stage::Life;
         /// Share of the objects that are drawn together into groups: 0 is even, 1 leaves clearings.
         clumping: f64 = 0.3, "Clumping", Unit::None, linear(0.0, 1.0), Stage::Life;

@@ -277,7 +277,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             sway: 0.25,
             ..soft(
                 of(
-                    tuft(9, [0.07, 0.8, 0.8], 0.0, true),
+                    tuft(9, [0.075, 0.7, 1.0], 0.0, true),
                     0.6,
                     [[0.06, 0.09, 0.025], [0.05, 0.115, 0.022]],
                     2500.0,

@@ -20,13 +20,15 @@ const LEAST_TEXELS: f64 = 5.0;
 /// Sine of the sun's elevation below which objects cast no shadows: the light of dusk has no edges.
 const LEAST_SUN_SINE: f64 = 0.02;
 
-/// Radii of the cascades in metres, and texels along a side.
-fn extent(quality: Quality) -> ([f64; CASCADES], u32) {
-    match quality {
+/// Radii of the cascades in metres at an altitude, and texels along a side. From above more of the ground is in sight,
+/// and smaller.
+fn extent(quality: Quality, altitude_m: f64) -> ([f64; CASCADES], u32) {
+    let ([near_m, far_m], side_px): ([f64; CASCADES], u32) = match quality {
         Quality::Low => ([45.0, 180.0], 1024),
-        Quality::Medium => ([45.0, 320.0], 2048),
-        Quality::High => ([40.0, 420.0], 4096),
-    }
+        Quality::Medium => ([45.0, 360.0], 2048),
+        Quality::High => ([40.0, 480.0], 4096),
+    };
+    ([near_m.max(1.5 * altitude_m), far_m.max(5.0 * altitude_m)], side_px)
 }
 
 /// The light of a frame around its eye.
@@ -54,7 +56,8 @@ impl Cascades {
             return None;
         }
         let foot_m = nearest_foot(&body.surface.scenery, eye_m)?;
-        let (radii_m, side_px) = extent(scene.quality);
+        let altitude_m = (eye_m.length() - foot_m.length()).max(0.0);
+        let (radii_m, side_px) = extent(scene.quality, altitude_m);
         let (across, along) = sun_dir.any_orthonormal_pair();
         let maps = radii_m.map(|radius_m| {
             let texel_m = 2.0 * radius_m / f64::from(side_px);

@@ -66,8 +66,8 @@ const NO_LAYER: u16 = u16::MAX;
 fn level_px(quality: Quality) -> [f64; LEVELS - 1] {
     match quality {
         Quality::Low => [360.0, 110.0, 24.0],
-        Quality::Medium => [240.0, 70.0, 15.0],
-        Quality::High => [170.0, 50.0, 12.0],
+        Quality::Medium => [170.0, 50.0, 13.0],
+        Quality::High => [120.0, 40.0, 11.0],
     }
 }
 
@@ -146,7 +146,7 @@ impl LifeView {
                 }
                 for (cascade, bins) in casting.iter_mut().enumerate() {
                     if casts.is_some_and(|casts| casts.takes(cascade, rel_m, size_m)) {
-                        let level = (level + cascade + 1).min(LEVELS - 1);
+                        let level = (level + cascade).min(LEVELS - 1);
                         bins.entry((0, index, variant, level)).or_default().push(instance);
                     }
                 }
