@@ -2,7 +2,7 @@
 //!
 //! `kinds!` writes the enum, its names, its choice in the panels and its form in the file from one list of variants.
 
-use super::param::{ParamPath, Params, Unit};
+use super::param::{ParamPath, Params, Unit, Value};
 
 /// Writes an enum of kinds from a list. The first kind is the default. A file writes a value as `Kind(parameter: 1.0)`;
 /// a person reads `"Label"`.
@@ -130,7 +130,9 @@ pub(super) fn take_over(kind: &mut dyn Params, before: &dyn Params) {
             param.unit == Unit::Kilometres && !std::mem::replace(&mut size_seen, param.unit == Unit::Kilometres);
         let same = old.iter().find(|(name, unit, _)| *name == param.name && *unit == param.unit);
         let new = if is_size { old_size.as_ref() } else { same.map(|(_, _, value)| value) };
-        if let Some(new) = new.filter(|new| new.problem(param).is_none()) {
+        // Parameters of one name may have different types.
+        let is_alike = |new: &&Value| std::mem::discriminant(*new) == std::mem::discriminant(&value.get());
+        if let Some(new) = new.filter(is_alike).filter(|new| new.problem(param).is_none()) {
             value.set(new);
         }
     });

@@ -1,12 +1,10 @@
-//! Checks that serde cannot make: ranges, references between names, the shape of the biome table.
-//!
-//! Ranges come from the description of each parameter. Rules that involve several parameters are here.
+//! Checks that serde cannot make: ranges, which come from the description of each parameter, and rules that involve
+//! several parameters, such as references between names.
 
 use super::edits::{
     self, LEAST_WIDTH, MAX_ALL_COPIES, MAX_ALL_PLACES, MAX_ALL_POINTS, MAX_EDIT_POINTS, MAX_EDITS, MOST_COURSES_RADII,
     MOST_WIDTH,
 };
-use super::life::population_path;
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Params as _, Segment};
 use super::printable::number_text;
@@ -80,14 +78,13 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
         }
     }
     biomes(&planet.biomes, &mut found);
-    populations(planet, &mut found);
+    found.0.extend(planet.life_problems());
     painted_biomes(planet, &mut found);
     courses(planet, &mut found);
     found.0
 }
 
 struct Found(Vec<(ParamPath, String)>);
-
 impl Found {
     fn add(&mut self, path: ParamPath, message: impl Into<String>) {
         self.0.push((path, message.into()));
@@ -119,12 +116,11 @@ fn limits(planet: &Planet, found: &mut Found) {
     limit(ParamPath::default().join("edits"), "points of all edits with copies and images", places, MAX_ALL_PLACES);
     limit(ParamPath::default().join("life"), "populations", planet.life.len(), MAX_POPULATIONS);
     limit(biomes_path("palette"), "biomes", planet.biomes.palette.len(), MAX_BIOMES);
-    let bookmarks = planet.editor.as_ref().map_or(0, |editor| editor.bookmarks.len());
-    let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("bookmarks")]);
-    limit(path, "bookmarks", bookmarks, MAX_BOOKMARKS);
-    let locks = planet.editor.as_ref().map_or(0, |editor| editor.locks.len());
-    let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("locks")]);
-    limit(path, "locks", locks, MAX_LOCKS);
+    let notes = |field| ParamPath::from(vec![Segment::Field("editor"), Segment::Field(field)]);
+    if let Some(editor) = &planet.editor {
+        limit(notes("bookmarks"), "bookmarks", editor.bookmarks.len(), MAX_BOOKMARKS);
+        limit(notes("locks"), "locks", editor.locks.len(), MAX_LOCKS);
+    }
     let by_hand = planet.structure.as_ref().map_or(0, |structure| structure.plates.by_hand.len());
     limit(by_hand_path(), "plates", by_hand, MAX_PLATES as usize);
     for (index, edit) in planet.edits.iter().enumerate().take(MAX_EDITS) {
@@ -360,22 +356,6 @@ fn painted_biomes(planet: &Planet, found: &mut Found) {
             let known: String = planet.biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
             let path = edits::edit_path(index).join("tool").join("biome");
             found.add(path, format!("{:?} is no key of the palette; use one of `{known}`", paint.biome));
-        }
-    }
-}
-
-fn populations(planet: &Planet, found: &mut Found) {
-    for (index, population) in planet.life.iter().enumerate() {
-        let mut add = |field, message| found.add(population_path(index).join(field), message);
-        let ranges = [
-            ("slope_to_deg", population.slope_from_deg, population.slope_to_deg, "slope_from_deg"),
-            ("height_to_m", population.height_from_m, population.height_to_m, "height_from_m"),
-            ("temperature_to_c", population.temperature_from_c, population.temperature_to_c, "temperature_from_c"),
-            ("moisture_to", population.moisture_from, population.moisture_to, "moisture_from"),
-        ];
-        for (field, from, to, other) in ranges.into_iter().filter(|(_, from, to, _)| from > to) {
-            let [from, to] = [from, to].map(number_text);
-            add(field, format!("{to} is out of order; use at least `{other}` ({from})"));
         }
     }
 }

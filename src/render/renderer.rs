@@ -13,11 +13,11 @@ use super::screen_pass::{Shared, Work};
 use super::shared::MAX_SUNS;
 use super::targets::{self, Owned, Target, Targets};
 use super::terrain::Indices;
+use super::uniform_groups::UniformGroups;
 use super::uniforms::{self, Drawn, UniformBuffer};
 use super::variant::Variant;
 use super::{FrameStats, Metered, Metering, RenderError, exposure, gpu, shaders};
 use crate::clouds::coverages;
-use crate::lod::Quality;
 use crate::tiles::Surface;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -38,38 +38,6 @@ pub struct Renderer {
     shader_error: Option<String>,
     /// The view of the newest [`Renderer::render`], and the target that holds its radiance.
     newest: Option<(ViewId, Target)>,
-}
-
-/// Makes the groups of uniforms.
-struct UniformGroups {
-    layout: wgpu::BindGroupLayout,
-    samplers: [wgpu::Sampler; 2],
-    comparison: wgpu::Sampler,
-    /// Stands in where no object casts a shadow.
-    no_shadows: ShadowMap,
-}
-
-impl UniformGroups {
-    fn new(device: &wgpu::Device) -> Self {
-        let samplers = gpu::samplers(device);
-        let (comparison, no_shadows) = (gpu::comparison_sampler(device), ShadowMap::new(device, 1));
-        Self { layout: uniforms::layout(device), samplers, comparison, no_shadows }
-    }
-
-    fn group(
-        &self,
-        device: &wgpu::Device,
-        frame: &UniformBuffer,
-        body: &UniformBuffer,
-        shadows: Option<&ShadowMap>,
-    ) -> wgpu::BindGroup {
-        use wgpu::BindingResource::{Sampler, TextureView};
-        let [clamped, repeated] = self.samplers.each_ref().map(Sampler);
-        let buffers = [frame.buffer.as_entire_binding(), body.buffer.as_entire_binding()];
-        let shadows = TextureView(&shadows.unwrap_or(&self.no_shadows).view);
-        let rest = [clamped, repeated, shadows, Sampler(&self.comparison)];
-        gpu::group(device, "uniforms", &self.layout, buffers.into_iter().chain(rest))
-    }
 }
 
 /// Resources of a body.
@@ -383,7 +351,7 @@ impl Renderer {
         profiling::scope!("render");
         let limit_px = self.device.limits().max_texture_dimension_2d;
         targets::check_size("target", target, scene.size_px, limit_px)?;
-        let (size_px, render_scale) = drawn_size(scene, limit_px);
+        let (size_px, render_scale) = targets::drawn_size(scene, limit_px);
         let (device, queue) = (self.device.clone(), self.queue.clone());
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let viewport_px = [0, 0, size_px[0], size_px[1]];
@@ -512,23 +480,5 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
         makes_bloom: shaded && scene.post.bloom > 0.0 && scene.whole.is_none(),
         metering: if shaded { scene.post.metering } else { Metering::Manual },
         post: Work { shaded, smooth_edges: scene.post.smooth_edges, ..Work::default() },
-    }
-}
-
-/// Pictures of more pixels than this are not supersampled: the targets would take gigabytes.
-const MOST_SUPERSAMPLED_PX: u32 = 9_000_000;
-
-/// Size of the picture before it is shown, and its render scale: 2 at high quality, 0.5 at low.
-fn drawn_size(scene: &Scene<'_>, limit_px: u32) -> ([u32; 2], f32) {
-    let size = scene.size_px.map(|side| side.clamp(1, limit_px));
-    // These debug views show the mesh as it is.
-    let plain = matches!(scene.debug_view, DebugView::Coverage | DebugView::Wireframe);
-    match scene.quality {
-        _ if plain => (size, 1.0),
-        Quality::Low => (size.map(|side| side.div_ceil(2)), 0.5),
-        Quality::High if size.iter().all(|side| side * 2 <= limit_px) && size[0] * size[1] <= MOST_SUPERSAMPLED_PX => {
-            (size.map(|side| side * 2), 2.0)
-        }
-        Quality::Medium | Quality::High => (size, 1.0),
     }
 }

@@ -3,7 +3,9 @@
 //! A view owns those between the stages; the caller lends the others. All are as large as the caller's targets, so that
 //! a pixel has the same coordinates in each of them.
 
+use super::scene::{DebugView, Scene};
 use super::{RenderError, gpu};
+use crate::lod::Quality;
 use std::collections::HashMap;
 
 /// Format of radiance: linear RGB, 1 for sunlit white ground.
@@ -150,5 +152,23 @@ pub(crate) fn check_size(
         Ok(())
     } else {
         Err(RenderError::TargetSize { name, target_px, picture_px })
+    }
+}
+
+/// Pictures of more pixels than this are not supersampled: the targets would take gigabytes.
+const MOST_SUPERSAMPLED_PX: u32 = 9_000_000;
+
+/// Size of the picture before it is shown, and its render scale: 2 at high quality, 0.5 at low.
+pub(crate) fn drawn_size(scene: &Scene<'_>, limit_px: u32) -> ([u32; 2], f32) {
+    let size = scene.size_px.map(|side| side.clamp(1, limit_px));
+    // These debug views show the mesh as it is.
+    let plain = matches!(scene.debug_view, DebugView::Coverage | DebugView::Wireframe);
+    match scene.quality {
+        _ if plain => (size, 1.0),
+        Quality::Low => (size.map(|side| side.div_ceil(2)), 0.5),
+        Quality::High if size.iter().all(|side| side * 2 <= limit_px) && size[0] * size[1] <= MOST_SUPERSAMPLED_PX => {
+            (size.map(|side| side * 2), 2.0)
+        }
+        Quality::Medium | Quality::High => (size, 1.0),
     }
 }

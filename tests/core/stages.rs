@@ -5,7 +5,7 @@ use crate::sculpt::{every_tool, planet as sculpted};
 use crate::support::edits::{full_planet, other};
 use std::sync::Arc;
 use tellus::planet::param::{ParamPath, Segment, Stage, Stages};
-use tellus::planet::{Giant, Planet, PlateByHand, Rings, Structure};
+use tellus::planet::{Form, Giant, Planet, PlateByHand, Population, Rings, Structure};
 use tellus::terrain::Revision;
 
 /// A planet with a structure, edits with every tool, and rings.
@@ -13,7 +13,8 @@ fn whole_planet() -> Planet {
     let edits = sculpted(0.0, every_tool()).edits;
     let mut structure = Structure { grids: 1, ..Structure::default() };
     structure.plates.by_hand = vec![PlateByHand { plate: 2, turn_deg: 20.0, ..PlateByHand::default() }];
-    Planet { structure: Some(structure), edits, rings: Some(Rings::default()), ..full_planet() }
+    let life = Form::all().into_iter().map(|form| Population { form, clumping: 0.4, ..Population::default() });
+    Planet { structure: Some(structure), edits, life: life.collect(), rings: Some(Rings::default()), ..full_planet() }
 }
 
 /// Whether the keys that changed are those of the declared stages, but for what another parameter decides.

@@ -9,6 +9,7 @@
 //! - `finding`: filters, and the row of a parameter that was searched for
 //! - `inspector`: all that is known of a place; `looks`: golden pictures of windows
 //! - `bake`: maps for other programs
+//! - `life`: populations of plants and stones
 //! - `layers`: several layers at once, layers alone
 //! - `library`: planets and parts that the user keeps
 //! - `system`: systems of planets
@@ -45,6 +46,7 @@ mod inspector;
 mod layered;
 mod layers;
 mod library;
+mod life;
 mod looks;
 mod memory;
 mod monkey;

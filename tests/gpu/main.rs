@@ -8,6 +8,7 @@
 //! - `cloud_edges`: clouds near the horizon: stairs and stripes
 //! - `cloud_light`: light under clouds: rain, fog, night
 //! - `lakes`: water of planets with a structure
+//! - `life`: objects on the ground and their shadows
 //! - `neighbours`: shadows and light between bodies, rings
 //! - `night`: airglow, aurora, lights of settlements
 //! - `history`: clouds carried over while the camera moves, and still pictures that converge
@@ -30,6 +31,7 @@ mod colours;
 mod edges;
 mod history;
 mod lakes;
+mod life;
 mod lod_pictures;
 mod materials;
 mod neighbours;

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use tellus::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueMut};
 use tellus::planet::{
-    Atmosphere, Biome, Blend, Clouds, Form, Layer, Mask, Planet, Population, Shape, Steep, Table, TableRows, Water,
+    Atmosphere, Biome, Blend, Clouds, Layer, Mask, Planet, Population, Shape, Steep, Table, TableRows, Water,
     param::Choice as _,
 };
 use tellus::terrain::Revision;
@@ -49,8 +49,7 @@ pub fn full_planet() -> Planet {
     planet.biomes.beach_m = 50.0;
     planet.biomes.snow = true;
     planet.climate.sea_moisture = 0.3;
-    let population = |(i, form)| Population { seed: i as u32, clumping: 0.4, form, ..Population::default() };
-    planet.life = (0..).zip(Form::all()).map(population).collect();
+    planet.life = vec![Population { clumping: 0.4, ..Population::default() }];
     planet
 }
 

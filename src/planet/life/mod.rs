@@ -13,6 +13,7 @@ pub use ready::{READY_POPULATIONS, ReadyPopulation};
 
 use super::Planet;
 use super::param::{Domain, ParamPath, Segment, Stage, Unit, linear, log, params};
+use super::printable::number_text;
 
 /// Most populations a planet may have.
 pub const MAX_POPULATIONS: usize = 32;
@@ -90,6 +91,20 @@ impl Population {
         Self { name, color, leaf_color, sway, solid, form, ..self.clone() }
     }
 
+    /// Ranges whose ends are out of order: the field, and what is wrong with it.
+    pub(crate) fn order_problems(&self) -> impl Iterator<Item = (&'static str, String)> {
+        let ranges = [
+            ("slope_to_deg", self.slope_from_deg, self.slope_to_deg, "slope_from_deg"),
+            ("height_to_m", self.height_from_m, self.height_to_m, "height_from_m"),
+            ("temperature_to_c", self.temperature_from_c, self.temperature_to_c, "temperature_from_c"),
+            ("moisture_to", self.moisture_from, self.moisture_to, "moisture_from"),
+        ];
+        ranges.into_iter().filter(|(_, from, to, _)| from > to).map(|(field, from, to, other)| {
+            let [from, to] = [from, to].map(number_text);
+            (field, format!("{to} is out of order; use at least `{other}` ({from})"))
+        })
+    }
+
     /// Swaps the ends of ranges that are out of order.
     pub(crate) fn mend_ranges(&mut self) {
         for (from, to) in [
@@ -116,6 +131,13 @@ pub fn population_path(index: usize) -> ParamPath {
 }
 
 impl Planet {
+    /// Populations with ranges that are out of order.
+    pub(crate) fn life_problems(&self) -> impl Iterator<Item = (ParamPath, String)> {
+        self.life.iter().enumerate().flat_map(|(index, population)| {
+            population.order_problems().map(move |(field, message)| (population_path(index).join(field), message))
+        })
+    }
+
     /// Replaces a key of a biome in the table, in all rules and in all populations.
     pub fn replace_biome_key(&mut self, old: char, new: char) {
         self.biomes.replace_key(old, new);

@@ -1,0 +1,137 @@
+//! Objects on the ground: where queries say, with shadows, and nowhere else.
+
+use crate::support::{SIZE_PX, camera, frame_of, gpu, surface_of};
+use std::sync::Arc;
+use tellus::lod::{Camera, Quality, View};
+use tellus::planet::life::Stone;
+use tellus::planet::{Biome, Form, Planet, Population, Table};
+use tellus::sphere::LatLon;
+use tellus::tiles::Surface;
+
+const LAT_DEG: f64 = 10.0;
+const LON_DEG: f64 = 20.0;
+
+/// A bare, even, grey sphere with upright stones.
+fn planet(height_m: f64, per_hectare: f64) -> Arc<Planet> {
+    let form = Form::Stone(Stone { flatness: 0.0, stretch: 1.0, ..Stone::default() });
+    let stones = Population {
+        per_hectare,
+        height_m,
+        height_spread: 0.0,
+        lean_deg: 0.0,
+        clumping: 0.0,
+        color: [0.9, 0.05, 0.05],
+        leaf_color: [0.9, 0.05, 0.05],
+        form,
+        ..Population::default()
+    };
+    let mut planet = Planet { radius_km: 500.0, life: vec![stones], ..Planet::default() };
+    planet.biomes.palette = vec![Biome { color: [0.3; 3], variation: 0.0, ..Biome::default() }];
+    planet.biomes.table = Table::uniform('a', 2, 2);
+    (planet.biomes.snow, planet.biomes.beach_m) = (false, 0.0);
+    Arc::new(planet)
+}
+
+fn view(planet: &Arc<Planet>, altitude_m: f64, pitch_deg: f64) -> View {
+    let camera = camera(planet, LAT_DEG, LON_DEG, altitude_m, 0.0, pitch_deg);
+    View { camera, size_px: SIZE_PX, quality: Quality::Medium }
+}
+
+/// Radiance of a view, the sun `away_deg` to the south of the zenith.
+fn radiance(surface: &Surface, planet: &Arc<Planet>, view: View, away_deg: f64) -> Vec<[f32; 3]> {
+    let sun = LatLon::from_degrees(LAT_DEG - away_deg, LON_DEG).direction();
+    gpu().radiance(&frame_of(surface, planet, view, sun))
+}
+
+/// The pixel that shows a point of the planet, if it lies within the picture.
+fn pixel(camera: &Camera, point_m: glam::DVec3) -> Option<usize> {
+    let rel = camera.planet_from_view.inverse() * (point_m - camera.position_planet_m);
+    let tan = (camera.fov_y_rad * 0.5).tan();
+    let [wide, high] = SIZE_PX.map(f64::from);
+    let x = 0.5 * (1.0 + rel.x / (-rel.z * tan * wide / high)) * wide;
+    let y = 0.5 * (1.0 - rel.y / (-rel.z * tan)) * high;
+    let inside = rel.z < 0.0 && (1.0..wide - 1.0).contains(&x) && (1.0..high - 1.0).contains(&y);
+    inside.then_some(y as usize * SIZE_PX[0] as usize + x as usize)
+}
+
+/// Red stones, grey ground.
+fn is_red(pixel: [f32; 3]) -> bool {
+    pixel[0] > 2.0 * pixel[1] && pixel[0] > 0.01
+}
+
+#[test]
+fn objects_are_drawn_where_queries_say_and_nowhere_else() {
+    let planet = planet(1.0, 150.0);
+    let view = view(&planet, 40.0, -60.0);
+    let surface = surface_of(&planet, &view);
+    let drawn = radiance(&surface, &planet, view, 10.0);
+    let up = view.camera.position_planet_m.normalize();
+    let found = surface.terrain.instances(up, 90.0).unwrap();
+    let (mut seen, mut owned) = (0, vec![false; drawn.len()]);
+    for instance in &found {
+        let middle_m = instance.dir_planet * (500_000.0 + instance.base_m + 0.5 * instance.size_m);
+        let Some(at) = pixel(&view.camera, middle_m) else { continue };
+        seen += 1;
+        assert!(is_red(drawn[at]), "no object at pixel {at}: {:?}", drawn[at]);
+        let width = SIZE_PX[0] as isize;
+        for (dx, dy) in (-6..=6).flat_map(|dx| (-6..=6).map(move |dy| (dx, dy))) {
+            if let Some(owned) = owned.get_mut((at as isize + dy * width + dx) as usize) {
+                *owned = true;
+            }
+        }
+    }
+    assert!(seen > 20, "{seen}");
+    let [wide, high] = SIZE_PX.map(|side| side as usize);
+    let strays = drawn.iter().enumerate().filter(|(at, pixel)| {
+        let inner = (8..wide - 8).contains(&(at % wide)) && (8..high - 8).contains(&(at / wide));
+        inner && is_red(**pixel) && !owned[*at]
+    });
+    assert_eq!(strays.count(), 0, "objects that no query knows");
+}
+
+#[test]
+fn objects_shade_the_ground_behind_them_and_the_ground_before_them_is_lit() {
+    let planet = planet(2.0, 60.0);
+    let bare = Arc::new(Planet { life: Vec::new(), ..(*planet).clone() });
+    let view = view(&planet, 30.0, -70.0);
+    let surface = surface_of(&planet, &view);
+    let empty = surface_of(&bare, &view);
+    // The sun stands in the south, 60 degrees from the zenith: shadows fall to the north, 1.7 times as long as high.
+    let (with, without) = (radiance(&surface, &planet, view, 60.0), radiance(&empty, &bare, view, 60.0));
+    let up = view.camera.position_planet_m.normalize();
+    let found = surface.terrain.instances(up, 60.0).unwrap();
+    let north = tellus::sphere::Tangent::new(up).north_planet;
+    let light = |pixels: &[[f32; 3]], at: usize| f64::from(pixels[at][1]);
+    let (mut shaded, mut lit) = (0, 0);
+    for instance in &found {
+        let foot_m = instance.dir_planet * 500_000.0;
+        let is_alone = |other: &&tellus::life::Instance| {
+            let away_m = (other.dir_planet - instance.dir_planet).length() * 500_000.0;
+            away_m > 0.0 && away_m < 7.0
+        };
+        if found.iter().any(|other| is_alone(&other)) {
+            continue;
+        }
+        let size_m = instance.size_m;
+        if let Some(at) = pixel(&view.camera, foot_m + north * (1.35 * size_m)) {
+            shaded += 1;
+            let share = light(&with, at) / light(&without, at);
+            assert!(share < 0.35, "no shadow behind the object at pixel {at}: {share}");
+        }
+        if let Some(at) = pixel(&view.camera, foot_m - north * (1.5 * size_m)) {
+            lit += 1;
+            let share = light(&with, at) / light(&without, at);
+            assert!(share > 0.9, "the ground before the object at pixel {at} is dark: {share}");
+        }
+    }
+    assert!(shaded > 2 && lit > 2, "{shaded} {lit}");
+}
+
+#[test]
+fn from_afar_and_in_debug_views_nothing_is_drawn() {
+    let planet = planet(1.0, 150.0);
+    let far = view(&planet, 4000.0, -80.0);
+    let surface = surface_of(&planet, &far);
+    assert_eq!(surface.scenery.object_count(), 0);
+    assert!(radiance(&surface, &planet, far, 10.0).iter().all(|pixel| !is_red(*pixel)));
+}
