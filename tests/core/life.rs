@@ -101,10 +101,10 @@ fn biomes_slopes_heights_and_climate_bound_a_population() {
     let found = around(&terrain, 20.0, 30.0, 3000.0);
     let of = |index: u16| found.iter().filter(move |instance| instance.population == index);
     assert!(of(0).count() > 100 && of(1).count() > 100);
-    let slope_deg = |instance: &Instance| terrain.sample(instance.dir_planet).slope_rad.to_degrees();
-    // Between the samples of the soil slopes and heights vary a little.
-    let steep = of(0).filter(|instance| slope_deg(instance) > 3.0).count();
-    assert!(steep as f64 > 0.9 * of(0).count() as f64);
+    let slope_deg = |instance: &Instance| -> f64 { terrain.sample(instance.dir_planet).slope_rad.to_degrees() };
+    // Between the samples of the soil slopes and heights vary.
+    let mean_deg = of(0).map(slope_deg).sum::<f64>() / of(0).count() as f64;
+    assert!(mean_deg > 5.5, "{mean_deg}");
     assert!(of(1).all(|instance| instance.ground_m > 1.0 && instance.ground_m < 50.0));
     assert_eq!((of(2).count(), of(3).count()), (0, 0));
 }

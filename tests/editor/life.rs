@@ -37,20 +37,20 @@ fn populations_are_added_duplicated_and_removed() {
         (names(&harness), undo_label(&harness)),
         (vec!["Conifer".to_owned()], "Add population: conifer".to_owned())
     );
-    add(&mut harness, "Boulder");
+    add(&mut harness, "Birch");
     click(&mut harness, "Duplicate population");
-    assert_eq!(names(&harness), ["Conifer", "Boulder", "Boulder 2"]);
+    assert_eq!(names(&harness), ["Conifer", "Birch", "Birch 2"]);
     click(&mut harness, "Population Conifer");
     click(&mut harness, "Remove population");
     assert_eq!(
         (names(&harness), undo_label(&harness)),
-        (vec!["Boulder".to_owned(), "Boulder 2".to_owned()], "Remove population".to_owned())
+        (vec!["Birch".to_owned(), "Birch 2".to_owned()], "Remove population".to_owned())
     );
-    click(&mut harness, "Enabled of Boulder");
+    click(&mut harness, "Enabled of Birch");
     assert!(!planet(&harness).life[0].enabled);
     send(&mut harness, Command::Undo);
     send(&mut harness, Command::Undo);
-    assert_eq!(names(&harness), ["Conifer", "Boulder", "Boulder 2"]);
+    assert_eq!(names(&harness), ["Conifer", "Birch", "Birch 2"]);
 }
 
 #[test]

@@ -93,7 +93,7 @@ pub(super) fn build(form: &Bulbs, detail: &Detail) -> Mesh {
     // The largest spheres are refined first, one step at a time.
     for (step, &cost) in kinds.iter().enumerate() {
         let before = if step == 0 { 0 } else { kinds[step - 1] };
-        for size in sizes.iter_mut() {
+        for size in &mut sizes {
             let more = cost - before.min(cost);
             if *size == before && more <= left {
                 left -= more;
