@@ -16,7 +16,8 @@
 //! - `photo`: pictures of any size, in tiles, of many samples, through a lens
 //! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps`
 //!   (of `material_kinds`, by `material_noise`)
-//! - `uniform_groups`, `uniforms`, `shared`, `wgsl`: what Rust and WGSL share, from one source; [`shaders`]: includes, checks, hot reload
+//! - `uniform_groups`, `uniforms`, `shared`, `wgsl`: what Rust and WGSL share, from one source; [`shaders`]: includes,
+//!   checks, hot reload
 //! - `worlds`: the bodies of a system around a camera: places, lights, points
 //! - `gpu`: helpers around wgpu; `sky_probe`: single rays through the shaders of the air
 //! - `resident`: the memory that all of it takes
