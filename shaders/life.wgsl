@@ -30,12 +30,7 @@ struct Surface {
     @location(7) @interpolate(flat) own_m: f32,
 }
 
-// Random number of a cell of a lattice.
-fn cell_noise(cell: vec3i) -> f32 {
-    var h = u32(cell.x) * 0x8da6b343u ^ u32(cell.y) * 0xd8163841u ^ u32(cell.z) * 0xcb1ab31fu;
-    h = (h ^ (h >> 15u)) * 0x85ebca77u;
-    return f32(h >> 8u) / 16777216.0;
-}
+fn lattice_value(cell: vec3i) -> f32 { return unit_from_hash(hash3(vec3u(cell))).x; }
 
 // Smooth noise of mean 0.5 with cells of length 1.
 fn lattice_noise(p: vec3f) -> f32 {
@@ -44,7 +39,7 @@ fn lattice_noise(p: vec3f) -> f32 {
     var rows: array<f32, 4>;
     for (var i = 0; i < 4; i++) {
         let at = cell + vec3i(0, i & 1, i >> 1u);
-        rows[i] = mix(cell_noise(at), cell_noise(at + vec3i(1, 0, 0)), f.x);
+        rows[i] = mix(lattice_value(at), lattice_value(at + vec3i(1, 0, 0)), f.x);
     }
     return mix(mix(rows[0], rows[1], f.y), mix(rows[2], rows[3], f.y), f.z);
 }

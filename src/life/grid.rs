@@ -20,8 +20,6 @@ pub(super) const HECTARE_M2: f64 = 10_000.0;
 pub(super) struct Grid {
     /// Level of the cells.
     pub(super) level: u8,
-    /// Nominal side of a cell, metres.
-    pub(super) side_m: f64,
     radius_m: f64,
     seed: u64,
     /// Candidates on a square metre: as many as may stand anywhere.
@@ -52,7 +50,7 @@ impl Grid {
             (level, side_m) = (level + 1, 0.5 * side_m);
         }
         let seed = u64::from(planet.seed) << 32 | u64::from(population.seed);
-        Self { level, side_m, radius_m, seed, most_per_m2 }
+        Self { level, radius_m, seed, most_per_m2 }
     }
 
     /// The candidates of a cell, in rows.

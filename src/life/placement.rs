@@ -14,7 +14,6 @@ use std::f64::consts::TAU;
 #[derive(Clone, Debug)]
 pub(super) struct Placement {
     pub(super) grid: Grid,
-    pub(super) population: Population,
     /// Index in the planet's list.
     pub(super) index: u16,
     suitability: Suitability,
@@ -43,7 +42,6 @@ impl Placement {
         Self {
             grid: Grid::new(planet, population),
             suitability: Suitability::new(planet, population),
-            population: population.clone(),
             index,
             radius_m: planet.radius_m(),
             seed: planet.seed.rotate_left(16) ^ population.seed,
@@ -51,9 +49,13 @@ impl Placement {
         }
     }
 
-    /// Objects on a hectare where everything suits them, groups apart.
+    pub(super) fn population(&self) -> &Population {
+        &self.suitability.population
+    }
+
+    /// Objects on a square metre where everything suits them, groups apart.
     pub(super) fn most_per_m2(&self) -> f64 {
-        self.population.per_hectare / super::grid::HECTARE_M2
+        self.population().per_hectare / super::grid::HECTARE_M2
     }
 
     /// The node whose soil decides about a cell; None for the large cells of a sparse population.
@@ -74,11 +76,9 @@ impl Placement {
         memory: &mut PlacementScratch,
     ) -> Vec<Instance> {
         let PlacementScratch { candidates, dirs, samples, scratch } = memory;
-        let offer = match soil.map(|soil| soil.offered(&self.suitability)) {
-            Some(None) => return Vec::new(),
-            Some(offer) => offer,
-            None => None,
-        };
+        let offer = soil.map(|soil| soil.offered(&self.suitability));
+        // It stands nowhere in the node.
+        let Some(offer) = offer.map_or(Some(None), |offer| offer.map(Some)) else { return Vec::new() };
         candidates.clear();
         // The ground is dear: it is asked for last.
         candidates.extend(self.grid.candidates(cell).filter_map(|candidate| {
@@ -93,27 +93,24 @@ impl Placement {
         dirs.extend(candidates.iter().map(|(candidate, _)| candidate.dir));
         samples.clear();
         samples.resize(dirs.len(), Sample::default());
-        let has_soil = offer.is_some();
-        let mut wanted = Wanted { normal: self.population.upright < 1.0, ..Wanted::HEIGHT };
-        wanted.water = !soil.is_some_and(|soil| soil.is_dry);
-        if !has_soil {
-            wanted = Wanted::ALL;
-        }
+        let wanted = match soil {
+            Some(soil) => Wanted { normal: self.population().upright < 1.0, water: !soil.is_dry, ..Wanted::HEIGHT },
+            None => Wanted::ALL,
+        };
         terrain.samples_spaced_into(dirs, 0.0, wanted, samples, scratch);
         let placed = candidates.iter().zip(&*samples).filter_map(|((candidate, share), sample)| {
-            let here = if has_soil {
-                f64::from(u8::from(self.suitability.is_dry(sample)))
-            } else {
-                self.suitability.at(sample)
+            let density = match soil {
+                Some(_) if self.suitability.is_dry(sample) => *share,
+                Some(_) => 0.0,
+                None => share * self.suitability.at(sample),
             };
-            let density = share * here;
             (candidate.rank < density).then(|| self.instance(candidate, density, sample))
         });
         placed.collect()
     }
 
     fn instance(&self, candidate: &Candidate, density: f64, sample: &Sample) -> Instance {
-        let (population, mut dice) = (&self.population, candidate.dice);
+        let (population, mut dice) = (self.population(), candidate.dice);
         let turn_rad = TAU * dice.next();
         let scale = 1.0 + population.height_spread * (2.0 * dice.next() - 1.0);
         let brightness = 1.0 + 0.6 * population.color_spread * (2.0 * dice.next() - 1.0);

@@ -8,11 +8,15 @@ use crate::terrain::Terrain;
 use glam::DVec3;
 use rayon::prelude::*;
 
+/// Cells that are placed at a time: it bounds the memory of their soil.
+const PART_CELLS: usize = 4096;
+
 /// An object that stands on the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Instance {
-    /// Id: the same wherever and whenever the object is asked for, while planet seed, population seed and density stay.
+    /// Id, unique within the population: the same wherever and whenever the object is asked for, while the seeds of the
+    /// planet and the population, its density, its clumping and the planet's radius stay.
     pub id: u64,
     /// Index of its population in [`Planet::life`](crate::planet::Planet::life).
     pub population: u16,
@@ -24,7 +28,7 @@ pub struct Instance {
     pub base_m: f64,
     /// Unit vector from the foot to the top, in the planet frame.
     pub axis_planet: DVec3,
-    /// Turn about the axis, radians.
+    /// Turn about the axis, radians, against the clock as seen from the top: at 0 the form's x axis points east.
     pub turn_rad: f64,
     /// Height of the form along its axis, metres.
     pub size_m: f64,
@@ -50,8 +54,8 @@ pub struct TooMany {
 }
 
 impl Terrain {
-    /// Most objects of one query of [`Terrain::instances`].
-    pub const MOST_INSTANCES: u64 = 20_000_000;
+    /// Most objects of one query of [`Terrain::instances`]: 1.4 GB of them.
+    pub const MOST_INSTANCES: u64 = 10_000_000;
 
     /// All objects whose place is within `radius_m` of a direction, along the reference sphere; on all cores, in
     /// ascending order of their ids.
@@ -79,21 +83,22 @@ impl Terrain {
         if candidates > Self::MOST_INSTANCES as f64 {
             return Err(TooMany { candidates: candidates as u64, most: Self::MOST_INSTANCES });
         }
-        let cells: Vec<(&Placement, NodeId)> = placements
-            .iter()
-            .flat_map(|placement| {
-                placement.grid.cells_within(dir, radius_m).into_iter().map(move |cell| (placement, cell))
-            })
-            .collect();
-        let soils = Soils::of(self, cells.iter().filter_map(|(placement, cell)| placement.soil_node(*cell)));
-        let mut found: Vec<Instance> = cells
-            .par_iter()
-            .map_init(PlacementScratch::default, |memory, (placement, cell)| {
-                placement.place(self, *cell, soils.get(placement.soil_node(*cell)), memory)
-            })
-            .flatten_iter()
-            .filter(|instance| takes(instance.dir_planet))
-            .collect();
+        let cells = placements.iter().flat_map(|placement| {
+            let cells = placement.grid.cells_within(dir, radius_m).into_iter();
+            cells.map(move |cell| (placement.soil_node(cell), placement, cell))
+        });
+        let mut cells: Vec<(Option<NodeId>, &Placement, NodeId)> = cells.collect();
+        // Cells of one soil stand together, so that the soil of a part serves no other.
+        cells.sort_by_key(|(soil, ..)| *soil);
+        let mut found: Vec<Instance> = Vec::new();
+        for part in cells.chunks(PART_CELLS) {
+            let mut soils = Soils::default();
+            soils.add(self, part.iter().filter_map(|(soil, ..)| *soil));
+            let placed = part.par_iter().map_init(PlacementScratch::default, |memory, (soil, placement, cell)| {
+                placement.place(self, *cell, soils.get(*soil), memory)
+            });
+            found.par_extend(placed.flatten_iter().filter(|instance| takes(instance.dir_planet)));
+        }
         found.sort_unstable_by_key(|instance| (instance.id, instance.population));
         Ok(found)
     }

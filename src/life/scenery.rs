@@ -5,15 +5,14 @@ use super::model::Model;
 use super::placement::{Placement, PlacementScratch};
 use super::query::Instance;
 use super::soil::{Soil, Soils};
-use crate::lod::cull::lowest_radius_m;
-use crate::lod::{Culling, Quality, View};
+use crate::lod::{Quality, View};
 use crate::planet::{Key, MAX_POPULATIONS, Population};
 use crate::sphere::{NodeId, geo};
 use crate::terrain::Terrain;
 use glam::{DMat3, DQuat, DVec3, Quat};
 use rayon::prelude::*;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// An object as it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +56,7 @@ pub struct SceneryCell {
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Scenery {
-    /// Cells with objects, nearest first within a population.
+    /// Cells with objects, nearest first.
     pub cells: Vec<Arc<SceneryCell>>,
     /// For each population of the planet, its meshes; None for those that are off.
     pub models: Vec<Option<Arc<Model>>>,
@@ -87,60 +86,21 @@ fn limits(quality: Quality) -> (f64, f64) {
 fn reach_m(placement: &Placement, quality: Quality) -> f64 {
     let (heights, most) = limits(quality);
     let by_count_m = (most / (placement.most_per_m2() * std::f64::consts::PI)).sqrt();
-    (placement.population.height_m * heights).min(by_count_m)
+    (placement.population().height_m * heights).min(by_count_m)
 }
 
-/// Cells of earlier views.
+/// Cells and models of earlier views.
 #[derive(Debug, Default)]
 pub(crate) struct SceneryCache {
-    models: Mutex<HashMap<Key, Arc<Model>>>,
-    cells: Mutex<HashMap<(u16, NodeId), Arc<SceneryCell>>>,
+    models: HashMap<Key, Arc<Model>>,
+    cells: HashMap<(u16, NodeId), Arc<SceneryCell>>,
 }
 
 /// Most objects that the cache keeps.
 const MOST_KEPT: usize = 600_000;
 
-impl SceneryCache {
-    fn known(&self, population: u16, id: NodeId, key: Key) -> Option<Arc<SceneryCell>> {
-        let cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
-        cells.get(&(population, id)).filter(|cell| cell.key == key).cloned()
-    }
-
-    fn keep(&self, cell: &Arc<SceneryCell>) {
-        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
-        cells.insert((cell.population, cell.id), cell.clone());
-    }
-
-    /// The model of a population, if it is kept, or one that is made now.
-    fn model(&self, population: &Population, may_make: bool) -> Option<Arc<Model>> {
-        let mut models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = Model::key_of(population);
-        if !models.contains_key(&key) && may_make {
-            models.insert(key, Arc::new(Model::new(population)));
-        }
-        models.get(&key).cloned()
-    }
-
-    /// Forgets cells that a view does not need, if there are too many.
-    fn trim(&self, scenery: &Scenery) {
-        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
-        // A cell without objects takes room, too.
-        let kept: usize = cells.values().map(|cell| 4 + cell.objects.len()).sum();
-        if kept > MOST_KEPT {
-            *cells = scenery.cells.iter().map(|cell| ((cell.population, cell.id), cell.clone())).collect();
-        }
-        drop(cells);
-        let mut models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
-        if models.len() > 2 * MAX_POPULATIONS {
-            models.retain(|key, _| scenery.models.iter().flatten().any(|model| model.key == *key));
-        }
-    }
-
-    /// Forgets all.
-    pub(crate) fn clear(&self) {
-        self.cells.lock().unwrap_or_else(PoisonError::into_inner).clear();
-    }
-}
+/// Share of the height above the ground that counts for the reach: hills may rise towards the eye.
+const HEIGHT_COUNTS: f64 = 0.8;
 
 /// A cell that a view needs.
 struct Needed<'a> {
@@ -156,99 +116,127 @@ impl Needed<'_> {
     }
 }
 
-impl Scenery {
-    /// The scenery of a view as far as it is kept, and the rest, nearest cells first, while `keep_going` says yes.
-    /// Whether all of it is there now.
+impl SceneryCache {
+    /// The scenery around the eye of a view as far as it is kept, and the rest, nearest cells first, while `keep_going`
+    /// says yes. Whether all of it is there now.
     pub(crate) fn find(
+        &mut self,
         terrain: &Terrain,
         view: &View,
-        cache: &SceneryCache,
         keep_going: &(dyn Fn() -> bool + Sync),
-    ) -> (Self, bool) {
+    ) -> (Scenery, bool) {
         let placements = Placement::all(terrain.planet());
-        let mut scenery = Self { cells: Vec::new(), ..Self::default() };
-        let populations = terrain.planet().life.len();
-        (scenery.reach_m, scenery.models) = (vec![0.0; populations], vec![None; populations]);
-        if placements.is_empty() {
-            return (scenery, true);
-        }
-        for placement in &placements {
-            scenery.reach_m[usize::from(placement.index)] = reach_m(placement, view.quality);
-        }
         let needed = needed(terrain, view, &placements);
+        if needed.is_empty() {
+            return (Scenery::default(), true);
+        }
+        let populations = terrain.planet().life.len();
+        let mut scenery =
+            Scenery { cells: Vec::new(), models: vec![None; populations], reach_m: vec![0.0; populations] };
         let mut is_whole = true;
         for placement in &placements {
+            let index = usize::from(placement.index);
+            scenery.reach_m[index] = reach_m(placement, view.quality);
             // From afar, nothing is drawn.
             if needed.iter().any(|needed| needed.placement.index == placement.index) {
-                let model = cache.model(&placement.population, keep_going());
-                is_whole &= model.is_some();
-                scenery.models[usize::from(placement.index)] = model;
+                scenery.models[index] = self.model(placement.population(), keep_going());
+                is_whole &= scenery.models[index].is_some();
             }
         }
-        let mut found: Vec<Option<Arc<SceneryCell>>> =
-            needed.iter().map(|needed| cache.known(needed.placement.index, needed.id, needed.key)).collect();
-        let lacking: Vec<usize> = (0..needed.len()).filter(|i| found[*i].is_none()).collect();
-        // In rounds, which keeps the order and can be stopped in between.
-        let round = 32 * rayon::current_num_threads().max(1);
-        let mut soils = Soils::default();
-        for round in lacking.chunks(round) {
-            if !keep_going() {
-                is_whole = false;
-                break;
-            }
-            soils.add(terrain, round.iter().filter_map(|i| needed[*i].soil_node()));
-            let made: Vec<(usize, Arc<SceneryCell>)> = round
-                .par_iter()
-                .map_init(PlacementScratch::default, |memory, i| {
-                    let soil = soils.get(needed[*i].soil_node());
-                    (*i, Arc::new(make(terrain, &needed[*i], soil, memory)))
-                })
-                .collect();
-            for (i, cell) in made {
-                cache.keep(&cell);
-                found[i] = Some(cell);
-            }
-        }
-        scenery.cells = found.into_iter().flatten().filter(|cell| !cell.objects.is_empty()).collect();
-        cache.trim(&scenery);
+        is_whole &= self.make_lacking(terrain, &needed, keep_going);
+        let cells = needed.iter().filter_map(|needed| self.known(needed));
+        scenery.cells = cells.filter(|cell| !cell.objects.is_empty()).cloned().collect();
+        self.trim(&scenery);
         (scenery, is_whole)
     }
 
+    /// Makes the cells that are not kept, in rounds, which keeps the order and can be stopped in between. Whether all
+    /// are there now.
+    fn make_lacking(
+        &mut self,
+        terrain: &Terrain,
+        needed: &[Needed<'_>],
+        keep_going: &(dyn Fn() -> bool + Sync),
+    ) -> bool {
+        let lacking: Vec<&Needed<'_>> = needed.iter().filter(|needed| self.known(needed).is_none()).collect();
+        let mut soils = Soils::default();
+        lacking.chunks(32 * rayon::current_num_threads().max(1)).all(|round| {
+            if !keep_going() {
+                return false;
+            }
+            soils.add(terrain, round.iter().filter_map(|needed| needed.soil_node()));
+            let made = round.par_iter().map_init(PlacementScratch::default, |memory, needed| {
+                Arc::new(make(terrain, needed, soils.get(needed.soil_node()), memory))
+            });
+            let made: Vec<Arc<SceneryCell>> = made.collect();
+            self.cells.extend(made.into_iter().map(|cell| ((cell.population, cell.id), cell)));
+            true
+        })
+    }
+
+    fn known(&self, needed: &Needed<'_>) -> Option<&Arc<SceneryCell>> {
+        self.cells.get(&(needed.placement.index, needed.id)).filter(|cell| cell.key == needed.key)
+    }
+
+    /// The model of a population, if it is kept, or one that is made now.
+    fn model(&mut self, population: &Population, may_make: bool) -> Option<Arc<Model>> {
+        let key = Model::key_of(population);
+        if may_make {
+            return Some(self.models.entry(key).or_insert_with(|| Arc::new(Model::new(population))).clone());
+        }
+        self.models.get(&key).cloned()
+    }
+
+    /// Forgets cells and models that a view does not need, if there are too many.
+    fn trim(&mut self, scenery: &Scenery) {
+        // A cell without objects takes room, too.
+        let kept: usize = self.cells.values().map(|cell| 4 + cell.objects.len()).sum();
+        if kept > MOST_KEPT {
+            self.cells = scenery.cells.iter().map(|cell| ((cell.population, cell.id), cell.clone())).collect();
+        }
+        if self.models.len() > 2 * MAX_POPULATIONS {
+            self.models.retain(|key, _| scenery.models.iter().flatten().any(|model| model.key == *key));
+        }
+    }
+}
+
+impl Scenery {
     /// Objects in all cells.
     pub fn object_count(&self) -> usize {
         self.cells.iter().map(|cell| cell.objects.len()).sum()
     }
 }
 
-/// The cells that a view needs, nearest first.
+/// Cells around the eye that a view needs, nearest first: those behind it, too, for shadows, and because it may turn
+/// before the next surface is there.
 fn needed<'a>(terrain: &Terrain, view: &View, placements: &'a [Placement]) -> Vec<Needed<'a>> {
     let planet = terrain.planet();
     let (eye, planet_m) = (view.camera.position_planet_m, planet.radius_m());
+    let farthest_m = placements.iter().map(|placement| reach_m(placement, view.quality)).fold(0.0, f64::max);
+    // From orbit the ground below is not even asked for.
+    if eye.length() - planet_m - terrain.height_bounds_m().1 > farthest_m / HEIGHT_COUNTS {
+        return Vec::new();
+    }
     let dir = eye.normalize_or(DVec3::Z);
     let ground_m = planet_m + terrain.height_m(dir).max(planet.sea_level_m().unwrap_or(f64::MIN));
     let above_m = (eye.length() - ground_m).max(0.0);
-    let culling = Culling::new(view, lowest_radius_m(terrain));
+    if HEIGHT_COUNTS * above_m > farthest_m {
+        return Vec::new();
+    }
     // What decides about the ground, the climate and the biomes of a place.
     let rules = Key::of(&(&planet.biomes, &planet.climate, planet.sea_level_m(), planet.radius_km, planet.seed));
     let mut needed = Vec::new();
     for placement in placements {
         let reach_m = reach_m(placement, view.quality);
-        // From above, less of the ground is in reach; hills rise towards the eye.
-        let flat_m = (reach_m * reach_m - (0.8 * above_m).powi(2)).max(0.0).sqrt();
+        // From above, less of the ground is in reach.
+        let flat_m = (reach_m * reach_m - (HEIGHT_COUNTS * above_m).powi(2)).max(0.0).sqrt();
         if flat_m <= 0.0 {
             continue;
         }
-        let own = Key::of(&(rules, placement.population.placed()));
-        let side_m = placement.grid.side_m;
+        let own = Key::of(&(rules, placement.population().placed()));
         for id in placement.grid.cells_within(dir, flat_m) {
-            let middle = id.direction(0.5, 0.5);
-            let away_m = angle(middle, dir) * planet_m;
-            // Heights are not known yet: hills may rise as far as they are away.
-            let radius_m = side_m + placement.population.height_m + away_m.min(2000.0);
-            if culling.sees_sphere(middle * ground_m, radius_m) {
-                let key = Key::of(&(own, terrain.tile_keys_at(id)));
-                needed.push(Needed { placement, id, key, away_m });
-            }
+            let key = Key::of(&(own, terrain.tile_keys_at(id)));
+            needed.push(Needed { placement, id, key, away_m: angle(id.direction(0.5, 0.5), dir) * planet_m });
         }
     }
     needed.sort_by(|a, b| {

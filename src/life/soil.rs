@@ -87,14 +87,7 @@ impl Offer {
 pub(super) struct Soils(HashMap<NodeId, Soil>);
 
 impl Soils {
-    /// The soil of some nodes, each sampled once, on all cores.
-    pub(super) fn of(terrain: &Terrain, nodes: impl Iterator<Item = NodeId>) -> Self {
-        let mut soils = Self::default();
-        soils.add(terrain, nodes);
-        soils
-    }
-
-    /// Adds the soil of nodes that are not there yet.
+    /// Adds the soil of nodes that are not there yet, on all cores.
     pub(super) fn add(&mut self, terrain: &Terrain, nodes: impl Iterator<Item = NodeId>) {
         let mut missing: Vec<NodeId> = nodes.filter(|node| !self.0.contains_key(node)).collect();
         missing.sort_unstable();

@@ -16,7 +16,7 @@ const SOFT_M: f64 = 15.0;
 /// What a population asks of a place.
 #[derive(Clone, Debug)]
 pub(super) struct Suitability {
-    population: Population,
+    pub(super) population: Population,
     /// For each biome of the palette, whether the population stands there.
     biomes: Vec<bool>,
     sea_m: Option<f64>,
@@ -31,10 +31,7 @@ impl Suitability {
     /// Share of the density of the population that the ground at a sample bears, 0 to 1.
     pub(super) fn at(&self, sample: &Sample) -> f64 {
         let population = &self.population;
-        if !self.biomes.get(sample.biome).is_some_and(|stands| *stands) {
-            return 0.0;
-        }
-        if !self.is_dry(sample) {
+        if !self.biomes.get(sample.biome).is_some_and(|stands| *stands) || !self.is_dry(sample) {
             return 0.0;
         }
         let slope_deg = sample.slope_rad.to_degrees();

@@ -1,7 +1,7 @@
 //! Gas giants: planets without a ground, whose clouds are drawn in bands by jets.
 
 use super::Planet;
-use super::param::{Domain, Stage, Unit, count, linear, log, params};
+use super::param::{Domain, ParamPath, Stage, Unit, count, linear, log, params};
 use super::starting::Starting;
 
 params! {
@@ -39,6 +39,24 @@ params! {
         spot_color: [f64; 3] = [0.52, 0.18, 0.07], "Colour of the spot", Unit::None, Domain::Color, Stage::Uniform;
         /// Seed of bands, eddies and storms.
         seed: u32 = 0, "Seed", Unit::None, Domain::Seed, Stage::Uniform;
+    }
+}
+
+impl Planet {
+    /// Parts of the planet that a giant does not have, because it has no ground; none unless the planet is a giant.
+    pub(super) fn giant_problems(&self) -> impl Iterator<Item = (ParamPath, String)> {
+        let grounds = [
+            ("layers", !self.layers.is_empty()),
+            ("edits", !self.edits.is_empty()),
+            ("life", !self.life.is_empty()),
+            ("structure", self.structure.is_some()),
+            ("water", self.water.is_some()),
+        ];
+        let is_giant = self.giant.is_some();
+        grounds.into_iter().filter(move |(_, has)| is_giant && *has).map(|(part, _)| {
+            let message = format!("a gas giant has no ground; remove `{part}`, or `giant`");
+            (ParamPath::default().join(part), message)
+        })
     }
 }
 

@@ -64,7 +64,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
     }
     slope_distances(&planet.layers, &mut found);
     plates(planet, &mut found);
-    giant(planet, &mut found);
+    found.0.extend(planet.giant_problems());
     for (index, shared) in planet.edits.shared().iter().enumerate().filter(|(_, shared)| !shared.is_valid()) {
         let before = found.0.len();
         shared.edit.each_value(&mut edits::edit_path(index), &mut |path, param, value| {
@@ -85,6 +85,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
 }
 
 struct Found(Vec<(ParamPath, String)>);
+
 impl Found {
     fn add(&mut self, path: ParamPath, message: impl Into<String>) {
         self.0.push((path, message.into()));
@@ -190,24 +191,6 @@ fn plates(planet: &Planet, found: &mut Found) {
             let message = format!("another entry changes plate {} too; use one entry for each plate", plate.plate);
             found.add(item(&by_hand_path(), index, Some("plate")), message);
         }
-    }
-}
-
-/// A giant has no ground.
-fn giant(planet: &Planet, found: &mut Found) {
-    if planet.giant.is_none() {
-        return;
-    }
-    let grounds = [
-        ("layers", !planet.layers.is_empty()),
-        ("edits", !planet.edits.is_empty()),
-        ("life", !planet.life.is_empty()),
-        ("structure", planet.structure.is_some()),
-        ("water", planet.water.is_some()),
-    ];
-    for (part, _) in grounds.into_iter().filter(|(_, has)| *has) {
-        let message = format!("a gas giant has no ground; remove `{part}`, or `giant`");
-        found.add(ParamPath::default().join(part), message);
     }
 }
 

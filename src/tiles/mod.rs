@@ -158,7 +158,7 @@ pub fn add_detail_within(surface: &mut Surface, view: &View, limits: &Limits) ->
     let in_time = || limits.leave_time();
     horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &in_time, &in_time);
     let is_whole = find_detail(surface, view, &|_, _| {}, &in_time, &in_time);
-    let (scenery, has_all) = Scenery::find(&surface.terrain, view, &SceneryCache::default(), &in_time);
+    let (scenery, has_all) = SceneryCache::default().find(&surface.terrain, view, &in_time);
     surface.scenery = scenery;
     is_whole && has_all
 }

@@ -6,7 +6,7 @@ use super::cache::Cache;
 use super::horizon::HorizonFinder;
 use super::refine::{Cut, Goal, refine};
 use super::{BuildStats, Surface, find_detail};
-use crate::life::scenery::{Scenery, SceneryCache};
+use crate::life::scenery::SceneryCache;
 use crate::lod::tile::{DetailTile, Tile};
 use crate::terrain::coarse::CellFields;
 use crate::terrain::{Revision, Terrain};
@@ -122,7 +122,7 @@ impl Worker {
                     // The state may be inconsistent.
                     self.cache.clear();
                     self.cell_fields.clear();
-                    self.scenery.clear();
+                    self.scenery = SceneryCache::default();
                     self.terrain = None;
                     self.views.clear();
                     Some(text_of(panic.as_ref()))
@@ -191,10 +191,10 @@ impl Worker {
                 let mut surface = (self.refine)(&terrain, &goal, &self.cache, cut, stats, &keep_going);
                 surface.complete &= terrain.has_final_maps();
                 work.stats = surface.stats;
-                // Objects on ground that did not change.
-                surface.scenery = Scenery::find(&terrain, view, &self.scenery, &|| false).0;
                 // Show the tiles before spending time on their detail.
                 if !surface.complete || is_first || surface.stats.tiles_built > tiles_before {
+                    // Objects on ground that did not change.
+                    surface.scenery = self.scenery.find(&terrain, view, &|| false).0;
                     work.complete = surface.complete.then(|| (surface.clone(), None));
                     self.views[index] = work;
                     return (surface, false);
@@ -210,8 +210,7 @@ impl Worker {
         let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going, &planet_wanted);
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
         let has_detail = find_detail(&mut surface, view, &keep, &keep_going, &planet_wanted) && has_horizons;
-        let (scenery, has_scenery) =
-            Scenery::find(&surface.terrain, view, &self.scenery, &|| has_detail && keep_going());
+        let (scenery, has_scenery) = self.scenery.find(&surface.terrain, view, &|| has_detail && keep_going());
         surface.scenery = scenery;
         let done = has_detail && has_scenery;
         work.stats = surface.stats;

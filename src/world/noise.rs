@@ -2,6 +2,7 @@
 //!
 //! It uses basic operations alone: the same bits on every machine, for one point or for a row of points.
 
+use crate::planet::random::dice::{GOLDEN_BITS, mix_bits};
 use crate::simd::{Simd, for_each_simd};
 use glam::DVec3;
 
@@ -13,12 +14,9 @@ pub(crate) fn scramble(bits: u32) -> u32 {
     h ^ (h >> 16)
 }
 
-/// Mixes the bits of a number (the finaliser of SplitMix64, Steele et al. 2014).
+/// Mixes the bits of a number: the first number of SplitMix64 from a state.
 pub(crate) fn mix(state: u64) -> u64 {
-    let z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
+    mix_bits(state.wrapping_add(GOLDEN_BITS))
 }
 
 /// A hash of two numbers.

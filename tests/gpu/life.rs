@@ -1,10 +1,11 @@
 //! Objects on the ground: where queries say, with shadows, and nowhere else.
 
-use crate::support::{SIZE_PX, camera, frame_of, gpu, surface_of};
+use crate::support::{SIZE_PX, camera, debug, frame_of, gpu, surface_of};
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::life::Stone;
 use tellus::planet::{Biome, Form, Planet, Population, Table};
+use tellus::render::DebugView;
 use tellus::sphere::LatLon;
 use tellus::tiles::Surface;
 
@@ -137,4 +138,10 @@ fn from_afar_and_in_debug_views_nothing_is_drawn() {
     let surface = surface_of(&planet, &far);
     assert_eq!(surface.scenery.object_count(), 0);
     assert!(radiance(&surface, &planet, far, 10.0).iter().all(|pixel| !is_red(*pixel)));
+    let near = view(&planet, 40.0, -60.0);
+    let surface = surface_of(&planet, &near);
+    assert!(surface.scenery.object_count() > 20);
+    let sun = LatLon::from_degrees(LAT_DEG, LON_DEG).direction();
+    let heights = gpu().radiance(&debug(frame_of(&surface, &planet, near, sun), DebugView::Height));
+    assert!(heights.iter().all(|pixel| !is_red(*pixel)));
 }

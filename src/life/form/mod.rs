@@ -1,13 +1,10 @@
 //! Forms of plants and stones: meshes made from a few parameters and a seed.
 //!
-//! | File | Purpose |
-//! |---|---|
-//! | `build`, `math`, `random` | meshes, arithmetic and random numbers, the same on every machine |
-//! | `tube`, `leaf`, `sphere`, `grow`, `clump` | parts that several kinds share |
-//! | `sight` | what is seen from the side, for levels of detail that match |
-//! | `tree`, `crown`, `conifer`, `palm`, `tuft`, `cushion`, `cactus`, `mushroom` | kinds of plant |
-//! | `stone`, `crystal` | kinds of rock |
-//! | `bulbs`, `fans`, `tendrils` | kinds of strange life |
+//! - `build`, `math`, `random`: meshes, arithmetic and random numbers, the same on every machine
+//! - `tube`, `leaf`, `sphere`, `grow`, `clump`: parts that several kinds share
+//! - `sight`: what is seen from the side, for levels of detail that match
+//! - `tree`, `crown`, `conifer`, `palm`, `tuft`, `cushion`, `cactus`, `mushroom`: kinds of plant
+//! - `stone`, `crystal`: kinds of rock; `bulbs`, `fans`, `tendrils`: kinds of strange life
 
 mod build;
 mod bulbs;
@@ -42,12 +39,6 @@ pub use build::{Mesh, Vertex};
 pub const LEVELS: usize = 4;
 
 impl Form {
-    /// Largest number of triangles of a level.
-    pub fn budget(&self, level: usize) -> usize {
-        let table = if matches!(self, Form::Tuft(_)) { [120, 40, 12, 4] } else { [4000, 700, 140, 28] };
-        table[level.min(LEVELS - 1)]
-    }
-
     /// Builder of this form's meshes; what all levels share is made only once.
     fn builder(&self, seed: u32) -> Box<dyn Fn(&Detail) -> Mesh + '_> {
         match self {

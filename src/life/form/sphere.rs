@@ -39,16 +39,15 @@ pub(super) fn sphere(frequency: usize) -> Sphere {
     let (corners, faces) = icosahedron();
     let mut out = Sphere::default();
     // Corners on edges are found again by their exact key: the two ends and the step between them.
-    let mut known: std::collections::BTreeMap<[usize; 6], u16> = std::collections::BTreeMap::new();
+    let mut known: std::collections::BTreeMap<[[usize; 2]; 3], u16> = std::collections::BTreeMap::new();
     for face in faces {
         let mut index = |out: &mut Sphere, i: usize, j: usize| -> u16 {
             let mut key = [(face[0], n - i - j), (face[1], i), (face[2], j)];
             key.sort_unstable();
-            let flat = key.map(|(c, w)| if w == 0 { [usize::MAX, 0] } else { [c, w] });
-            let mut flat = flat;
-            flat.sort_unstable();
-            let flat = [flat[0][0], flat[0][1], flat[1][0], flat[1][1], flat[2][0], flat[2][1]];
-            *known.entry(flat).or_insert_with(|| {
+            // Corners of weight 0 do not count.
+            let mut parts = key.map(|(c, w)| if w == 0 { [usize::MAX, 0] } else { [c, w] });
+            parts.sort_unstable();
+            *known.entry(parts).or_insert_with(|| {
                 let sum: Vec3 = key.iter().map(|&(c, w)| corners[c] * w as f32).sum();
                 out.corners.push(sum.normalize_or(Vec3::Z));
                 (out.corners.len() - 1) as u16

@@ -19,8 +19,8 @@ use super::printable::number_text;
 pub const MAX_POPULATIONS: usize = 32;
 
 params! {
-    /// A population: objects of one form, spread over the ground where it suits them. No two stand at one place, and
-    /// none stands in water unless it may.
+    /// A population: objects of one form, spread over the ground where it suits them. None stands in water unless it
+    /// may. Give each population a seed of its own: equal ones of one density would stand at the same places.
     pub struct Population {
         /// Name of the population.
         name: String = "Population".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 48 }, Stage::Label;

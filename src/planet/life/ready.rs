@@ -46,7 +46,7 @@ fn stone(shape: [f64; 3], cuts: u32, skin: [f64; 2]) -> Form {
     Form::Stone(Stone { roundness, flatness, stretch, cuts, layers, roughness })
 }
 
-/// A form with its height and its two colours, so many on a hectare, in groups: strength and size in metres.
+/// Population of a form. `colors`: of wood or stone, and of leaves. `groups`: clumping, and clump size in metres.
 fn of(form: Form, height_m: f64, colors: [[f64; 3]; 2], per_hectare: f64, groups: [f64; 2]) -> Population {
     let ([color, leaf_color], [clumping, clump_m]) = (colors, groups);
     Population { form, height_m, color, leaf_color, per_hectare, clumping, clump_m, ..Population::default() }

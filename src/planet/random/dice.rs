@@ -14,16 +14,24 @@ pub(crate) fn three_digits(value: f64) -> f64 {
     (value * scale).round() / scale
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
+/// Mixing step of SplitMix64 (Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014): a hash of
+/// 64 bits.
+pub(crate) fn mix_bits(bits: u64) -> u64 {
+    let z = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// What SplitMix64 adds to its state from number to number: the golden ratio.
+pub(crate) const GOLDEN_BITS: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// SplitMix64.
 pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0 = self.0.wrapping_add(GOLDEN_BITS);
+        mix_bits(self.0)
     }
 
     /// From 0 to below 1.

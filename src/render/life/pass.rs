@@ -104,80 +104,15 @@ impl LifePass {
         let lit = buffers(device, wgpu::ShaderStages::COMPUTE, &kinds);
         let kinds = [storage(true), wgpu::BufferBindingType::Uniform];
         let cast = buffers(device, wgpu::ShaderStages::VERTEX, &kinds);
-        let shadow = Self::shadow_pipeline(device, &cast)?;
-        let (draw, light) = (Self::draw_pipeline(device, shared, &drawn)?, Self::light_pipeline(device, shared, &lit)?);
-        Ok(Self { draw, light, shadow, drawn, lit, cast })
-    }
-
-    fn draw_pipeline(
-        device: &wgpu::Device,
-        shared: Shared<'_>,
-        drawn: &wgpu::BindGroupLayout,
-    ) -> Result<wgpu::RenderPipeline, RenderError> {
-        let module = shaders::module(device, ENTRY)?;
-        let layout = gpu::pipeline_layout(device, ENTRY, &[shared.uniforms, drawn]);
         let formats =
             [Target::Radiance, Target::GroundSurface].map(|target| target.format().unwrap_or(RADIANCE_FORMAT));
-        let vertices = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Vertex>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &ATTRIBUTES,
-        };
-        gpu::checked(device, ENTRY, || {
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(ENTRY),
-                layout: Some(&layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some("vertex"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[Some(vertices)],
-                },
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some("fragment"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: &formats.map(|format| Some(format.into())),
-                }),
-                // Leaves are seen from both sides.
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: Some(gpu::depth_state(wgpu::CompareFunction::Greater)),
-                multisample: wgpu::MultisampleState::default(),
-                multiview_mask: None,
-                cache: None,
-            })
-        })
-    }
-
-    fn shadow_pipeline(
-        device: &wgpu::Device,
-        cast: &wgpu::BindGroupLayout,
-    ) -> Result<wgpu::RenderPipeline, RenderError> {
-        let module = shaders::module(device, SHADOW_ENTRY)?;
-        let layout = gpu::pipeline_layout(device, SHADOW_ENTRY, &[cast]);
-        let vertices = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Vertex>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &ATTRIBUTES[..1],
-        };
-        gpu::checked(device, SHADOW_ENTRY, || {
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(SHADOW_ENTRY),
-                layout: Some(&layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some("vertex"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[Some(vertices)],
-                },
-                fragment: None,
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: Some(gpu::depth_state(wgpu::CompareFunction::Less)),
-                multisample: wgpu::MultisampleState::default(),
-                multiview_mask: None,
-                cache: None,
-            })
-        })
+        let nearer = wgpu::CompareFunction::Greater;
+        let draw = mesh_pipeline(device, ENTRY, &[shared.uniforms, &drawn], (&ATTRIBUTES, &formats, nearer))?;
+        // Depth from the sun is not reversed.
+        let nearer = wgpu::CompareFunction::Less;
+        let shadow = mesh_pipeline(device, SHADOW_ENTRY, &[&cast], (&ATTRIBUTES[..1], &[], nearer))?;
+        let light = Self::light_pipeline(device, shared, &lit)?;
+        Ok(Self { draw, light, shadow, drawn, lit, cast })
     }
 
     fn light_pipeline(
@@ -291,6 +226,46 @@ impl LifePass {
         stats.objects_drawn = view.count();
         stats
     }
+}
+
+/// A pipeline that draws meshes, seen from both sides as leaves are, into targets of these formats and into depth.
+fn mesh_pipeline(
+    device: &wgpu::Device,
+    entry: &str,
+    groups: &[&wgpu::BindGroupLayout],
+    (attributes, formats, nearer): (&[wgpu::VertexAttribute], &[wgpu::TextureFormat], wgpu::CompareFunction),
+) -> Result<wgpu::RenderPipeline, RenderError> {
+    let module = shaders::module(device, entry)?;
+    let layout = gpu::pipeline_layout(device, entry, groups);
+    let vertices = wgpu::VertexBufferLayout {
+        array_stride: size_of::<Vertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes,
+    };
+    let targets: Vec<_> = formats.iter().map(|format| Some((*format).into())).collect();
+    gpu::checked(device, entry, || {
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(entry),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vertex"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[Some(vertices)],
+            },
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fragment"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &targets,
+            }),
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: Some(gpu::depth_state(nearer)),
+            multisample: wgpu::MultisampleState::default(),
+            multiview_mask: None,
+            cache: None,
+        })
+    })
 }
 
 /// Draws instances of meshes; counts the triangles.

@@ -55,7 +55,7 @@ impl Cascades {
         if up.dot(sun_dir) < LEAST_SUN_SINE {
             return None;
         }
-        let foot_m = nearest_foot(&body.surface.scenery, eye_m)?;
+        let foot_m = ground_below(&body.surface.scenery, eye_m)?;
         let altitude_m = (eye_m.length() - foot_m.length()).max(0.0);
         let (radii_m, side_px) = extent(scene.quality, altitude_m);
         let (across, along) = sun_dir.any_orthonormal_pair();
@@ -97,14 +97,13 @@ impl Cascades {
     }
 }
 
-/// The foot of an object that is near the eye: the ground there.
-fn nearest_foot(scenery: &Scenery, eye_m: DVec3) -> Option<DVec3> {
+/// Point of the ground below the eye, at the height of the nearest cell of objects.
+fn ground_below(scenery: &Scenery, eye_m: DVec3) -> Option<DVec3> {
     let cells = scenery.cells.iter();
     let nearest = cells.min_by(|a, b| {
         let away = |cell: &SceneryCell| cell.center_planet_m.distance_squared(eye_m);
         away(a).total_cmp(&away(b))
     })?;
-    // Below the eye, at the height of that ground.
     Some(eye_m.normalize_or(DVec3::Z) * nearest.center_planet_m.length())
 }
 

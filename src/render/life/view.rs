@@ -57,6 +57,8 @@ pub(crate) struct LifeView {
     pub(super) buffers: Option<super::pass::Buffers>,
 }
 
+/// Variants of a form.
+const VARIANTS: usize = Form::VARIANTS as usize;
 /// Share of its size over which an object grows where it begins to be drawn.
 const GROWTH: f64 = 0.12;
 /// Layer of an object without a horizon tile.
@@ -99,68 +101,41 @@ impl LifeView {
         let lowest_m = body.surface.terrain.planet().radius_m() + height_range_m(body.surface).0;
         let culling = Culling::new(chosen, lowest_m.max(0.0));
         let horizons = Horizons::new(body);
-        // By array of horizon tiles, model, variant and level.
-        let mut bins = Bins::new();
-        let mut casting: [Bins; CASCADES] = Default::default();
-        let planet = body.surface.terrain.planet();
-        let shown = body.planet();
+        let drawn = Drawn::new(view, cascades);
+        let mut seen = Bins::new(scenery.models.len());
+        let mut casting: [Bins; CASCADES] = std::array::from_fn(|_| Bins::new(scenery.models.len()));
         for cell in &scenery.cells {
-            let index = usize::from(cell.population);
-            let (Some(Some(_)), Some(&reach_m)) = (scenery.models.get(index), scenery.reach_m.get(index)) else {
-                continue;
-            };
-            let eye = view.camera.position_planet_m;
             let is_seen = culling.sees_sphere(cell.center_planet_m, cell.bounding_radius_m);
-            let casts = cascades.filter(|cascades| cascades.reaches(cell, eye));
-            if !is_seen && casts.is_none() {
-                continue;
-            }
-            // The colours of the newest planet, if it has the same populations.
-            let of = |planet: &crate::planet::Planet| planet.life.get(index).cloned();
-            let Some(population) = of(if shown.life.len() == planet.life.len() { shown } else { planet }) else {
-                continue;
-            };
-            let shade = horizons.of(cell).and_then(|tile| {
+            let casts = cascades.is_some_and(|cascades| cascades.reaches(cell, drawn.eye_m));
+            let index = usize::from(cell.population);
+            let (Some(population), true) = (population(body, index), is_seen || casts) else { continue };
+            let shade = horizons.of(cell).filter(|_| is_seen).and_then(|tile| {
                 let at = tiles.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile))?;
                 Some(Shade { at, within: within(cell.id, tile.id) })
             });
             let array = shade.as_ref().map_or(0, |shade| shade.at.array);
-            let look = Look { population: &population, shade, axis: axis_code(cell.id) };
-            for object in &cell.objects {
-                let rel_m = object.foot_planet_m - eye;
-                let away_m = rel_m.length();
-                // The last objects of a distance grow from nothing.
-                let share = (1.0 + GROWTH) * share_at(away_m, reach_m);
-                let grown = ((share - f64::from(object.rank)) / GROWTH).clamp(0.0, 1.0);
-                if grown <= 0.0 {
-                    continue;
-                }
-                let size_m = f64::from(object.size_m) * grown;
-                let pixels = size_m / (away_m.max(0.1) * view.pixel_rad());
-                let limits = level_px(view.quality);
-                let level = limits.iter().position(|least| pixels > *least).unwrap_or(LEVELS - 1);
-                let variant = usize::from(object.variant).min(Form::VARIANTS as usize - 1);
-                let instance = look.instance(object, rel_m, size_m);
+            let look = Look { population, shade, axis: axis_code(cell.id) };
+            let reach_m = scenery.reach_m.get(index).copied().unwrap_or(0.0);
+            for (object, shown) in
+                cell.objects.iter().filter_map(|object| Some((object, drawn.shown(object, reach_m)?)))
+            {
+                let instance = look.instance(object, &shown);
+                let variant = usize::from(object.variant);
                 if is_seen {
-                    bins.entry((array, index, variant, level)).or_default().push(instance);
+                    seen.add(array, (index, variant, shown.level), instance);
                 }
-                for (cascade, bins) in casting.iter_mut().enumerate() {
-                    if casts.is_some_and(|casts| casts.takes(cascade, rel_m, size_m)) {
-                        let level = (level + cascade).min(LEVELS - 1);
-                        bins.entry((0, index, variant, level)).or_default().push(instance);
+                for (cascade, bins) in casting.iter_mut().enumerate().filter(|_| casts) {
+                    if drawn.casts(cascade, &shown) {
+                        bins.add(0, (index, variant, (shown.level + cascade).min(LEVELS - 1)), instance);
                     }
                 }
             }
         }
         let models: Vec<Option<Key>> =
             scenery.models.iter().map(|model| model.as_ref().map(|model| model.key)).collect();
-        let lit = &mut self.lit;
-        draw_all(bins, &models, &mut self.instances, &mut self.draws, |array, span| match lit.last_mut() {
-            Some(last) if last.array == array => last.instances.end = span.end,
-            _ => lit.push(Lit { array, instances: span.clone() }),
-        });
+        self.lit = seen.drain_into(&models, &mut self.instances, &mut self.draws);
         for (draws, bins) in self.casts.iter_mut().zip(casting) {
-            draw_all(bins, &models, &mut self.casting, draws, |_, _| {});
+            bins.drain_into(&models, &mut self.casting, draws);
         }
         super::pass::Buffers::write(&mut self.buffers, device, queue, [&self.instances, &self.casting]);
     }
@@ -185,28 +160,89 @@ impl LifeView {
     }
 }
 
-/// Instances by array of horizon tiles, population, variant and level.
-type Bins = HashMap<(usize, usize, usize, usize), Vec<Instance>>;
+/// A population of a body: that of the newest planet, whose colours count, if it has as many as the surface.
+fn population<'a>(body: &'a Body<'_>, index: usize) -> Option<&'a Population> {
+    let (newest, made) = (&body.planet().life, &body.surface.terrain.planet().life);
+    if newest.len() == made.len() { newest.get(index) } else { made.get(index) }
+}
 
-/// Puts instances one after the other, in an order that does not depend on hashing. `each` is called with the array and
-/// the span of each bin.
-fn draw_all(
-    bins: Bins,
-    models: &[Option<Key>],
-    instances: &mut Vec<Instance>,
-    draws: &mut Vec<Draw>,
-    mut each: impl FnMut(usize, &Range<u32>),
-) {
-    let mut bins: Vec<_> = bins.into_iter().collect();
-    bins.sort_unstable_by_key(|(bin, _)| *bin);
-    for ((array, population, variant, level), members) in bins {
-        let first = instances.len() as u32;
-        instances.extend(members);
-        let span = first..instances.len() as u32;
-        each(array, &span);
-        if let Some(model) = models.get(population).copied().flatten() {
+/// How objects are drawn in a view.
+struct Drawn<'a> {
+    eye_m: DVec3,
+    pixel_rad: f64,
+    level_px: [f64; LEVELS - 1],
+    cascades: Option<&'a Cascades>,
+}
+
+/// An object as a view shows it.
+struct Shown {
+    rel_m: DVec3,
+    size_m: f64,
+    level: usize,
+}
+
+impl<'a> Drawn<'a> {
+    fn new(view: &View, cascades: Option<&'a Cascades>) -> Self {
+        let (eye_m, pixel_rad) = (view.camera.position_planet_m, view.pixel_rad());
+        Self { eye_m, pixel_rad, level_px: level_px(view.quality), cascades }
+    }
+
+    /// How an object is shown; None where it has thinned out.
+    fn shown(&self, object: &SceneryObject, reach_m: f64) -> Option<Shown> {
+        let rel_m = object.foot_planet_m - self.eye_m;
+        let away_m = rel_m.length();
+        // The last objects of a distance grow from nothing.
+        let share = (1.0 + GROWTH) * share_at(away_m, reach_m);
+        let grown = ((share - f64::from(object.rank)) / GROWTH).clamp(0.0, 1.0);
+        let size_m = f64::from(object.size_m) * grown;
+        let pixels = size_m / (away_m.max(0.1) * self.pixel_rad);
+        let level = self.level_px.iter().position(|least| pixels > *least).unwrap_or(LEVELS - 1);
+        (grown > 0.0).then_some(Shown { rel_m, size_m, level })
+    }
+
+    /// Whether an object casts a shadow into a cascade.
+    fn casts(&self, cascade: usize, shown: &Shown) -> bool {
+        self.cascades.is_some_and(|cascades| cascades.takes(cascade, shown.rel_m, shown.size_m))
+    }
+}
+
+/// Instances by array of horizon tiles, population, variant and level.
+struct Bins {
+    populations: usize,
+    bins: Vec<Vec<Instance>>,
+}
+
+impl Bins {
+    fn new(populations: usize) -> Self {
+        Self { populations, bins: Vec::new() }
+    }
+
+    fn add(&mut self, array: usize, (population, variant, level): (usize, usize, usize), instance: Instance) {
+        let bin = ((array * self.populations + population) * VARIANTS + variant.min(VARIANTS - 1)) * LEVELS + level;
+        if self.bins.len() <= bin {
+            self.bins.resize_with(bin + 1, Vec::new);
+        }
+        self.bins[bin].push(instance);
+    }
+
+    /// Puts all instances one after the other. Gives those of each array of horizon tiles.
+    fn drain_into(self, models: &[Option<Key>], instances: &mut Vec<Instance>, draws: &mut Vec<Draw>) -> Vec<Lit> {
+        let mut lit: Vec<Lit> = Vec::new();
+        for (bin, members) in self.bins.into_iter().enumerate().filter(|(_, members)| !members.is_empty()) {
+            let (level, mesh) = (bin % LEVELS, bin / LEVELS);
+            let (variant, population) = (mesh % VARIANTS, mesh / VARIANTS);
+            let array = population / self.populations;
+            let Some(model) = models.get(population % self.populations).copied().flatten() else { continue };
+            let first = instances.len() as u32;
+            instances.extend(members);
+            let span = first..instances.len() as u32;
+            match lit.last_mut() {
+                Some(last) if last.array == array => last.instances.end = span.end,
+                _ => lit.push(Lit { array, instances: span.clone() }),
+            }
             draws.push(Draw { model, variant, level, instances: span });
         }
+        lit
     }
 }
 
@@ -218,7 +254,7 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn instance(&self, object: &SceneryObject, rel_m: DVec3, size_m: f64) -> Instance {
+    fn instance(&self, object: &SceneryObject, shown: &Shown) -> Instance {
         let root = |color: [f64; 3]| {
             color.map(|part| {
                 let bright = part * f64::from(object.brightness);
@@ -238,8 +274,8 @@ impl Look<'_> {
             [at(object.place[0], x, width), at(object.place[1], y, width)]
         });
         Instance {
-            foot_rel_m: rel_m.as_vec3().to_array(),
-            size_m: size_m as f32,
+            foot_rel_m: shown.rel_m.as_vec3().to_array(),
+            size_m: shown.size_m as f32,
             turn: object.planet_from_form.to_array().map(signed),
             colors: [first[0], first[1], first[2], sway, second[0], second[1], second[2], phase],
             place,
