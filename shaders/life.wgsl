@@ -1,5 +1,6 @@
 // Objects that stand on the ground: plants, stones. Opaque meshes, drawn by instance.
 #include "object_shadow.wgsl"
+#include "neighbours.wgsl"
 #include "math.wgsl"
 #include "life_instance.wgsl"
 
@@ -28,6 +29,9 @@ struct Surface {
     @location(6) mottle: vec4f,
     // Way towards the sun within the object's own leaves, which `look` already darkens
     @location(7) @interpolate(flat) own_m: f32,
+    // Share of the sun's light that neighbours leave, where no map of shadows tells
+    @location(8) @interpolate(flat) among: f32,
+    @location(9) @interpolate(flat) level: f32,
 }
 
 fn lattice_value(cell: vec3i) -> f32 { return unit_from_hash(hash3(vec3u(cell))).x; }
@@ -68,6 +72,11 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     out.look = in.look.xy;
     out.sun = vec4f(light.sun, light.visible);
     out.sky = light.sky;
+    let sun = body.suns[0].dir;
+    out.among = neighbours_leave(
+        instance.neighbours, ray_tangent(dot(body.eye_up, sun)), dot(normalize(-out.rel_m), sun),
+    );
+    out.level = in.look.w;
     out.own_m = 0.1 * in.look.x * instance.size_m;
     // Coarse levels are smooth where fine ones have single leaves.
     out.mottle = vec4f(in.position * 11.0 + 64.0 * second.a, in.look.w * in.look.x);
@@ -80,6 +89,10 @@ struct Output {
     @location(1) surface: vec4f,
 }
 
+// How soft the edge between light and shade of leaves is: coarse levels have one surface where fine ones have leaves of
+// all directions. As in src/life/form/cover.rs.
+const SOFT_NEAR: f32 = 0.35;
+const SOFT_FAR: f32 = 0.8;
 // Share of sunlight that leaves let through to their other side.
 const TRANSLUCENT: f32 = 0.25;
 // Albedo of the ground around, which lights the undersides of objects.
@@ -93,7 +106,7 @@ fn fragment(in: Surface) -> Output {
     let leaf = in.look.x;
     let facing = dot(n, l);
     // Light is spread within a crown: its edge between light and shade is soft.
-    let soft = 0.35 * leaf;
+    let soft = leaf * mix(SOFT_NEAR, SOFT_FAR, in.level);
     let front = max((facing + soft) / (1.0 + soft), 0.0) / (1.0 + 0.5 * soft);
     let behind = TRANSLUCENT * leaf * max(-facing, 0.0);
     // What sees little of the sky is shaded by the rest of the object.
@@ -101,7 +114,8 @@ fn fragment(in: Surface) -> Output {
     let open = (0.5 + 0.5 * dot(n, up)) * in.look.y;
     let mottled = 1.0 + in.mottle.w * 1.3 * (lattice_noise(in.mottle.xyz) - 0.5);
     let albedo = in.albedo * mottled;
-    let shade = object_shade(in.rel_m + l * in.own_m, n);
+    var shade = object_shade(in.rel_m + l * in.own_m, n);
+    shade.sun -= (1.0 - shade.known.x) * (1.0 - in.among);
     let sky = in.sky * mix(1.0, shade.sky, 1.0 - 0.6 * leaf);
     let ground = in.sun.rgb * (max(dot(up, l), 0.0) * shade.sun) + sky;
     let from_below = ground * (GROUND_ALBEDO * (1.0 - open) * in.look.y);

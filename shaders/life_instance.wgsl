@@ -13,7 +13,9 @@ struct Instance {
     // Place in the horizon tile, two unsigned 16-bit numbers; then its layer (0xffff without one), and in the upper
     // half the code of its first tangent axis
     horizon: vec2u,
-    padding: vec2u,
+    // Area of neighbours that shade the object, for each area of ground
+    neighbours: f32,
+    padding: u32,
 }
 
 // Light on an object: irradiance of the sun and of the sky.

@@ -40,6 +40,9 @@ struct Material {
     slope: vec3f,
     // Emitted radiance
     glow: vec3f,
+    // The two strongest biomes, -1 for none, and their shares
+    biomes: vec2<i32>,
+    shares: vec2f,
 }
 
 fn biome_at(cell: vec2i) -> i32 {
@@ -278,5 +281,7 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     out.slope = mix(a.slope, b.slope, t);
     out.glow = mix(a.glow, b.glow, t);
     out.specular = mixture.specular * 0.08;
+    out.biomes = mixture.ids;
+    out.shares = mixture.weights;
     return out;
 }

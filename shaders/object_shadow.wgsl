@@ -6,9 +6,11 @@ struct ObjectShade {
     sun: f32,
     // Share of the sky's light: under crowns the sky is hidden where the sun is, or will be
     sky: f32,
+    // How much of both is known: objects beyond the map shade, too
+    known: vec2f,
 }
 
-const NO_SHADE: ObjectShade = ObjectShade(1.0, 1.0);
+const NO_SHADE: ObjectShade = ObjectShade(1.0, 1.0, vec2f(0.0));
 // Around a point, the metres within which objects hide its sky, and the share that crowns leave of it.
 const SKY_REACH_M: f32 = 5.0;
 const UNDER_CROWNS: f32 = 0.3;
@@ -48,7 +50,9 @@ fn object_shade(rel_m: vec3f, n: vec3f) -> ObjectShade {
         if cascade == WIDE {
             let wide = cascade_light(cascade, clip, 2.0 * SKY_REACH_M / texel_m * texel);
             out.sky = mix(1.0, mix(UNDER_CROWNS, 1.0, wide), own);
+            out.known.y = own;
         }
     }
+    out.known.x = 1.0 - left;
     return out;
 }

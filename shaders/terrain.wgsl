@@ -6,6 +6,7 @@
 #include "horizon.wgsl"
 #include "reflectance.wgsl"
 #include "object_shadow.wgsl"
+#include "canopy.wgsl"
 #include "sea.wgsl"
 #include "settlements.wgsl"
 #include "giant_tops.wgsl"
@@ -304,11 +305,22 @@ struct Facet {
     footprint_km: f32,
 }
 
-// What objects leave of the light at the pixel.
+// What drawn objects leave of the light at the pixel.
 var<private> objects: ObjectShade = NO_SHADE;
+// Normal of the ground without bumps.
+var<private> canopy_normal: vec3f;
 
-// Radiance that the ground reflects of the active sun's light and of the sky lit by it.
-fn lit(ground: Material, facet: Facet, from_ground: Visibility) -> vec3f {
+// Shade of objects on the ground: of those that are drawn, and beyond their map of the canopy.
+fn ground_shade(canopy: Canopy, is_first: bool) -> ObjectShade {
+    let far = under_canopy(canopy, ray_tangent(dot(canopy_normal, active_sun.dir)));
+    let known = select(vec2f(0.0, objects.known.y), objects.known, is_first);
+    let near = select(vec2f(1.0, objects.sky), vec2f(objects.sun, objects.sky), is_first);
+    let shade = near - (1.0 - known) * (1.0 - vec2f(far.sun, far.sky));
+    return ObjectShade(shade.x, shade.y, vec2f(1.0));
+}
+
+// Radiance that the ground and the objects on it reflect of the active sun's light and of the sky lit by it.
+fn lit(ground: Material, canopy: Canopy, facet: Facet, from_ground: Visibility, is_first: bool) -> vec3f {
     let sun = active_sun.dir;
     let n = facet.tilted;
     let tilted_l = lit_cosine(dot(n, sun));
@@ -318,18 +330,24 @@ fn lit(ground: Material, facet: Facet, from_ground: Visibility) -> vec3f {
     let sunlight = active_sun.irradiance * sun_transmittance(facet.altitude_km, sun_mu);
     let clouds = under_clouds(facet.rel_km, facet.altitude_km, sun_mu, facet.footprint_km);
     let sky_share = overcast(clouds.straight, clouds.passed);
-    let shadow = clouds.straight * from_ground.star;
-    var sky = sky_irradiance(facet.altitude_km, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
-    sky += sunlight * THROUGH_LEAVES * (1.0 - objects.sky);
+    let shade = ground_shade(canopy, is_first);
+    let open_sky = sky_irradiance(facet.altitude_km, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
+    let open_sun = sunlight * (clouds.straight * from_ground.star);
+    let shadow = clouds.straight * from_ground.star * shade.sun;
+    var sky = open_sky + sunlight * THROUGH_LEAVES * (1.0 - shade.sky);
     // Light goes to and fro between ground and fog.
     let again = ground.albedo * clouds.returned;
     sky += (sky + sunlight * max(sun_mu, 0.0) * shadow) * again / (1.0 - again);
-    let open = saturate1(0.5 + 0.5 * dot(n, facet.up) * facet.area) * from_ground.sky;
+    let open = saturate1(0.5 + 0.5 * dot(n, facet.up) * facet.area) * from_ground.sky * shade.sky;
     // Light reflected by the surrounding ground to a slope that does not see the whole sky.
     let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
     let glint = mirrored(n, facet.v, sun, ground.roughness, ground.specular);
-    return ground.albedo * (sunlight * shadow * tilted_l * rough * facet.area + (sky * open + bounce) / PI)
+    let floor = ground.albedo * (sunlight * shadow * tilted_l * rough * facet.area + (sky * open + bounce) / PI)
         + sunlight * shadow * glint.x + sky * open * glint.y / PI;
+    if canopy.ends.y == 0 { return floor; }
+    let rays = canopy_rays(facet.up, sun, facet.v);
+    let crowns = canopy_radiance(canopy, open_sun, open_sky * from_ground.sky, dot(canopy_normal, sun), rays);
+    return canopy.floor * floor + crowns;
 }
 
 // Absorption of what floats in rivers, and the light that it scatters back.
@@ -373,6 +391,19 @@ fn splashed(over_sea_m: f32, spread_m: f32, variation: f32) -> f32 {
     return mix(1.0, 0.55, saturate1(share) * smoothstep(-0.3 - spread_m, 0.0, over_sea_m));
 }
 
+// What decides about the objects at a pixel. `footprint_m`: width of the pixel, the mean of its sides.
+fn canopy_place(
+    in: Ground, climate: Climate, n: vec3f, up: vec3f, distance_m: f32, footprint_m: f32,
+) -> CanopyPlace {
+    let sun = body.suns[0].dir;
+    let above_m = in.height_m - select(0.0, body.sea_level_km * 1000.0, body.has_sea != 0u);
+    let slope_deg = degrees(acos(clamp(dot(n, up), -1.0, 1.0)));
+    return CanopyPlace(
+        slope_deg, above_m, climate.temperature_c, climate.moisture, distance_m, in.rel_m, footprint_m,
+        sun - up * dot(sun, up),
+    );
+}
+
 fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(body.eye_km + rel_km);
@@ -408,11 +439,15 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     ground.albedo *= splashed(over_sea_m, pixel_ground.spread_m, variation);
     if GIANT {
         let deck = giant_tops(up, footprint_m * 0.001 / body.radius_km);
-        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0));
+        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0), vec2<i32>(-1), vec2f(0.0));
     }
     let wet = pixel_ground.water.x;
+    canopy_normal = n;
+    let place = canopy_place(in, climate, n, up, distance_m, sqrt(length(rel_x) * length(rel_y)));
+    let canopy = canopy_at(ground.biomes, ground.shares, n, v, place);
     if frame.debug_view == VIEW_ALBEDO {
-        return Shaded(mix(ground.albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);
+        let albedo = canopy_albedo(canopy, ground.albedo);
+        return Shaded(mix(albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);
     }
     n = bumped(n, in.rel_m, footprint_m);
     // Tilted ground has a larger area than the untilted ground below it. With the area included, bumps vary the light
@@ -426,14 +461,15 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
         var from_here = from_ground;
         if i > 0u { from_here = visibility_at(on_mesh, up); }
         if GIANT { from_here.star *= tops_in_sun(up, footprint_m * 0.001 / body.radius_km); }
-        radiance += lit(ground, facet, from_here);
+        radiance += lit(ground, canopy, facet, from_here, i == 0u);
     }
     let slope = length(n - up * dot(n, up)) / max(dot(n, up), 0.05);
     let sun_mu = dot(up, body.suns[0].dir);
     let settled = vec2f(climate.temperature_c, climate.moisture);
     radiance += settlement_light(in.rel_m, footprint_m, over_sea_m, slope, settled, sun_mu);
     if wet > 0.0 {
-        let water = inland_radiance(facet, radiance, pixel_ground.water.y, climate.temperature_c, from_ground);
+        let over_water = Visibility(from_ground.star * objects.sun, from_ground.sky * objects.sky);
+        let water = inland_radiance(facet, radiance, pixel_ground.water.y, climate.temperature_c, over_water);
         radiance = mix(radiance, water, wet);
     }
     let marked_radiance = highlighted(radiance, location, body.suns[0].irradiance / PI);
@@ -452,12 +488,10 @@ struct Output {
 fn fragment(in: Ground) -> Output {
     let up = normalize(body.eye_km + in.rel_m * 0.001);
     use_sun(0u);
-    var from_ground = visibility_at(in, up);
+    let from_ground = visibility_at(in, up);
     objects = object_shade(in.rel_m, normalize(in.normal));
-    from_ground.star *= objects.sun;
-    from_ground.sky *= objects.sky;
     let shaded = shade(in, from_ground);
     let spread_m = min(shaded.spread_m, 60000.0);
-    let surface = vec4f(in.level_climate.y, 1.0 - from_ground.star, spread_m, 0.0);
+    let surface = vec4f(in.level_climate.y, 1.0 - from_ground.star * objects.sun, spread_m, 0.0);
     return Output(vec4f(shaded.radiance, shaded.over_sea_m), surface);
 }

@@ -4,6 +4,7 @@
 //! [`CloudField::cover`](crate::clouds::CloudField::cover) answer at the point, as a float of 32 bits.
 
 use crate::clouds::CloudCover;
+use crate::life::Canopies;
 use crate::planet::{Biome, Planet, Water};
 use crate::sphere::geo::east_north;
 use crate::terrain::{Sample, Wanted};
@@ -34,13 +35,17 @@ pub enum Map {
     Rain,
     /// Index of the biome in the palette.
     Biome,
-    /// Mean colour of the biome, linear sRGB, seen through the water over it: without macro variation, steep rock that
-    /// shows through, floes or clouds.
+    /// Mean colour, linear sRGB, of the biome through the water over it and of the plants and stones on it: without
+    /// macro variation, steep rock that shows through, floes or clouds.
     Albedo,
     /// Roughness of the biome, 0 to 1.
     Roughness,
     /// Ambient occlusion: how much of the sky over the ground the ground around leaves open, 0 to 1.
     AmbientOcclusion,
+    /// Share of the ground that plants and stones cover, as seen from above, 0 to 1.
+    Canopy,
+    /// Mean height of the plants and stones, metres.
+    CanopyHeight,
     /// Lights of settlements at night, linear sRGB; sunlit white ground has 1.
     NightLights,
     /// Depth of sea, lake or river over the ground; 0 on land; metres.
@@ -79,11 +84,12 @@ pub(super) struct Site<'a> {
     /// The share of the sky that is open.
     pub(super) open: f64,
     pub(super) lights: [f64; 3],
+    pub(super) canopies: &'a Canopies,
 }
 
 impl Map {
     /// All of them.
-    pub const ALL: [Map; 20] = [
+    pub const ALL: [Map; 22] = [
         Map::Height,
         Map::Normal,
         Map::NormalPlanet,
@@ -96,6 +102,8 @@ impl Map {
         Map::Albedo,
         Map::Roughness,
         Map::AmbientOcclusion,
+        Map::Canopy,
+        Map::CanopyHeight,
         Map::NightLights,
         Map::WaterDepth,
         Map::Discharge,
@@ -121,6 +129,8 @@ impl Map {
             Map::Albedo => "albedo",
             Map::Roughness => "roughness",
             Map::AmbientOcclusion => "ambient_occlusion",
+            Map::Canopy => "canopy",
+            Map::CanopyHeight => "canopy_height",
             Map::NightLights => "night_lights",
             Map::WaterDepth => "water_depth",
             Map::Discharge => "discharge",
@@ -152,6 +162,8 @@ impl Map {
             Map::Albedo => "Albedo",
             Map::Roughness => "Roughness",
             Map::AmbientOcclusion => "Ambient occlusion",
+            Map::Canopy => "Canopy",
+            Map::CanopyHeight => "Canopy height",
             Map::NightLights => "Night lights",
             Map::WaterDepth => "Water depth",
             Map::Discharge => "Discharge",
@@ -175,9 +187,11 @@ impl Map {
             Map::Moisture => "The columns of the biome table, 0 to 1",
             Map::Rain => "Rain and snow of the structure's weather, mm a year",
             Map::Biome => "Index into the palette, which the JSON lists",
-            Map::Albedo => "Mean colour of the biome through the water over it",
+            Map::Albedo => "Mean colour of the biome through the water over it, and of what stands there",
             Map::Roughness => "Of the biome, 0 to 1",
             Map::AmbientOcclusion => "Share of the sky that the ground around leaves open; 1 is all",
+            Map::Canopy => "Share of the ground that plants and stones cover, as seen from above",
+            Map::CanopyHeight => "Mean height of the plants and stones in metres",
             Map::NightLights => "Towns, as they are drawn from afar",
             Map::WaterDepth => "Metres of sea, lake or river over the ground",
             Map::Discharge => "m³/s of the nearest river, if one is near",
@@ -190,7 +204,7 @@ impl Map {
     /// The unit of its values; empty for shares and numbers.
     pub fn unit(self) -> &'static str {
         match self {
-            Map::Height | Map::WaterDepth => "m",
+            Map::Height | Map::WaterDepth | Map::CanopyHeight => "m",
             Map::Slope => "deg",
             Map::Temperature => "C",
             Map::Precipitation | Map::Rain => "mm/year",
@@ -211,6 +225,7 @@ impl Map {
             | Map::Temperature
             | Map::Precipitation
             | Map::Rain
+            | Map::CanopyHeight
             | Map::NightLights
             | Map::WaterDepth
             | Map::Discharge => Range::Found,
@@ -219,6 +234,11 @@ impl Map {
             Map::Biome => Range::Numbers,
             _ => Range::Fixed(0.0, 1.0),
         }
+    }
+
+    /// Whether it shows what stands on the ground.
+    pub(super) fn shows_life(self) -> bool {
+        matches!(self, Map::Albedo | Map::Canopy | Map::CanopyHeight)
     }
 
     /// Whether it shows clouds, which change with time.
@@ -235,7 +255,7 @@ impl Map {
             Map::Normal | Map::NormalPlanet | Map::Slope => Some(height.and_normal()),
             Map::Temperature | Map::Precipitation | Map::Moisture => Some(height.and_climate()),
             Map::Biome | Map::Roughness => Some(height.and_biome()),
-            Map::Albedo => Some(height.and_biome().and_water()),
+            Map::Albedo | Map::Canopy | Map::CanopyHeight => Some(height.and_biome().and_water()),
             Map::Rain | Map::WaterDepth | Map::Discharge | Map::Flow => Some(height.and_water()),
             Map::CloudCover | Map::MiddleCover | Map::VeilCover | Map::FogCover => None,
         }
@@ -251,6 +271,9 @@ impl Map {
             Map::NightLights if planet.settlements <= 0.0 => Some("no settlements"),
             Map::NightLights if planet.water.is_none() => Some("no sea, by which settlements lie"),
             Map::Discharge | Map::Flow if planet.structure.is_none() => Some("no structure, so it has no rivers"),
+            Map::Canopy | Map::CanopyHeight if planet.life.iter().all(|population| !population.enabled) => {
+                Some("nothing that stands on the ground")
+            }
             _ if self.is_of_clouds() && planet.clouds.is_none() => Some("no clouds"),
             _ => None,
         }
@@ -258,7 +281,7 @@ impl Map {
 
     /// Its values at a point, one for each channel.
     pub(super) fn values(self, site: &Site<'_>) -> [f32; MOST_CHANNELS] {
-        let Site { planet, dir, sample, clouds, open, lights } = site;
+        let Site { planet, dir, sample, clouds, open, lights, canopies } = site;
         let local = |vector: DVec3| {
             let (east, north) = east_north(*dir);
             [vector.dot(east), vector.dot(north), vector.dot(*dir)]
@@ -274,9 +297,12 @@ impl Map {
             Map::Moisture => [sample.moisture, 0.0, 0.0],
             Map::Rain => [sample.rain_mm, 0.0, 0.0],
             Map::Biome => [sample.biome as f64, 0.0, 0.0],
-            Map::Albedo => biome().map_or([0.0; 3], |biome| through_water(planet, sample, mean_color(biome))),
+            Map::Albedo => biome()
+                .map_or([0.0; 3], |biome| canopies.albedo(sample, through_water(planet, sample, mean_color(biome)))),
             Map::Roughness => [biome().map_or(1.0, |biome| biome.roughness), 0.0, 0.0],
             Map::AmbientOcclusion => [*open, 0.0, 0.0],
+            Map::Canopy => [canopies.at(sample).cover, 0.0, 0.0],
+            Map::CanopyHeight => [canopies.at(sample).height_m, 0.0, 0.0],
             Map::NightLights => *lights,
             Map::WaterDepth => [depth_m(sample), 0.0, 0.0],
             Map::Discharge => [sample.river.map_or(0.0, |river| river.discharge_m3_s), 0.0, 0.0],

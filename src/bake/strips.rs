@@ -19,6 +19,7 @@ use super::occlusion::open_shares;
 use super::projection::Grid;
 use super::{Bake, Detail};
 use crate::clouds::{CloudCover, CloudField};
+use crate::life::Canopies;
 use crate::planet::Key;
 use crate::planet::file::write_atomically_with;
 use crate::planet::open::open_file;
@@ -81,6 +82,7 @@ pub(super) struct Evaluator<'a> {
     time_secs: f64,
     detail: Detail,
     lights: Option<Lights>,
+    canopies: Canopies,
 }
 
 /// What maps show besides the ground, for each point; empty if none of them does.
@@ -237,7 +239,8 @@ impl Strips {
                 let clouds = extras.clouds.get(i).copied().unwrap_or_default();
                 let (open, lights) = (extras.open.get(i).copied(), extras.lights.get(i).copied());
                 let (open, lights) = (open.unwrap_or(1.0), lights.unwrap_or_default());
-                let site = Site { planet, dir, sample, clouds, open, lights };
+                let canopies = &evaluator.canopies;
+                let site = Site { planet, dir, sample, clouds, open, lights, canopies };
                 for (map, plane) in self.maps.iter().zip(&mut planes) {
                     let (channels, values): (_, [f32; MOST_CHANNELS]) = (map.channels(), map.values(&site));
                     plane[pixel * channels..][..channels].copy_from_slice(&values[..channels]);
@@ -253,12 +256,14 @@ impl<'a> Evaluator<'a> {
     pub(super) fn new(bake: &'a Bake) -> Self {
         let planet = bake.terrain.planet();
         let shows_clouds = bake.maps.iter().any(|map| map.is_of_clouds());
+        let shows_life = bake.maps.iter().any(|map| map.shows_life());
         Self {
             terrain: &bake.terrain,
             clouds: planet.clouds.as_ref().filter(|_| shows_clouds).map(|_| CloudField::new(&bake.terrain)),
             time_secs: bake.time_secs,
             detail: bake.detail,
             lights: bake.maps.contains(&Map::NightLights).then(|| Lights::new(planet)).flatten(),
+            canopies: if shows_life { Canopies::new(planet) } else { Canopies::default() },
         }
     }
 

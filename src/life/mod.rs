@@ -5,6 +5,7 @@
 //! - `soil`: what the ground of a node offers
 //! - `suitability`: how well a place suits a population
 //! - `placement`: the objects of a cell
+//! - `canopy`: what populations cover of the ground
 //! - [`query`]: objects of a terrain, for games and exports
 //! - [`scenery`]: the objects that a view draws, kept from one view to the next
 //!
@@ -13,6 +14,7 @@
 //! from [`Sample`](crate::terrain::Sample)s, so lists are the same bits on every machine, and objects stand on the
 //! ground that queries answer.
 
+pub(crate) mod canopy;
 pub mod form;
 mod grid;
 mod hash;
@@ -23,6 +25,7 @@ pub mod scenery;
 mod soil;
 mod suitability;
 
+pub use canopy::{Canopies, Canopy};
 pub use model::Model;
 pub use query::{Instance, TooMany};
 pub use scenery::{Scenery, SceneryCell};

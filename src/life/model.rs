@@ -22,9 +22,13 @@ impl Model {
 
     /// Makes the meshes of a population, on all cores.
     pub fn new(population: &Population) -> Self {
-        let seed = |variant: u32| population.seed.wrapping_mul(0x9E37_79B1) ^ variant.wrapping_mul(0x85EB_CA77);
         let variants = (0..Form::VARIANTS).into_par_iter();
-        let variants = variants.map(|variant| form::meshes(&population.form, seed(variant))).collect();
+        let variants = variants.map(|variant| form::meshes(&population.form, seed(population, variant))).collect();
         Self { key: Self::key_of(population), variants }
     }
+}
+
+/// Seed of a variant of a population's form.
+pub(super) fn seed(population: &Population, variant: u32) -> u32 {
+    population.seed.wrapping_mul(0x9E37_79B1) ^ variant.wrapping_mul(0x85EB_CA77)
 }

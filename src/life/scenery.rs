@@ -1,5 +1,7 @@
 //! Scenery: the objects that a view draws, cell by cell, and those of earlier views that serve it.
 
+use super::canopy::{self, CanopyLayer};
+use super::form::Cover;
 use super::grid::angle;
 use super::model::Model;
 use super::placement::{Placement, PlacementScratch};
@@ -58,11 +60,13 @@ pub struct SceneryCell {
 pub struct Scenery {
     /// Cells with objects, nearest first.
     pub cells: Vec<Arc<SceneryCell>>,
-    /// For each population of the planet, its meshes; None for those that are off.
+    /// For each population of the planet, its meshes; None for those that are off, and from afar.
     pub models: Vec<Option<Arc<Model>>>,
     /// For each population of the planet, the distance from the eye up to which its objects are drawn; beyond a half of
     /// it they thin out by rank.
     pub reach_m: Vec<f64>,
+    /// For each population of the planet, the cover of its form; None for those that are off.
+    pub(crate) covers: Vec<Option<Cover>>,
 }
 
 /// Share of its reach up to which all objects of a population are drawn.
@@ -82,17 +86,36 @@ fn limits(quality: Quality) -> (f64, f64) {
     }
 }
 
-/// Distance up to which objects of a population are drawn.
-fn reach_m(placement: &Placement, quality: Quality) -> f64 {
+/// Distance up to which objects of a population are drawn, apart from others.
+fn own_reach_m(placement: &Placement, quality: Quality) -> f64 {
     let (heights, most) = limits(quality);
     let by_count_m = (most / (placement.most_per_m2() * std::f64::consts::PI)).sqrt();
     (placement.population().height_m * heights).min(by_count_m)
+}
+
+/// A population is not drawn beyond so many times the reach of a denser one of its size in its biomes: single trees would
+/// stand on a forest that is a canopy already.
+const BEYOND_OTHERS: f64 = 1.3;
+
+/// Distance up to which objects of a population are drawn among all.
+fn reach_m(placement: &Placement, all: &[Placement], quality: Quality) -> f64 {
+    let own = placement.population();
+    let area = |population: &Population| population.per_hectare * population.height_m * population.height_m;
+    let hides = |other: &&Placement| {
+        let other = other.population();
+        let meets =
+            own.biomes.is_empty() || other.biomes.is_empty() || own.biomes.chars().any(|key| other.stands_in(key));
+        meets && area(other) > area(own) && other.height_m > 0.5 * own.height_m
+    };
+    let others = all.iter().filter(hides).map(|other| BEYOND_OTHERS * own_reach_m(other, quality));
+    others.fold(own_reach_m(placement, quality), f64::min)
 }
 
 /// Cells and models of earlier views.
 #[derive(Debug, Default)]
 pub(crate) struct SceneryCache {
     models: HashMap<Key, Arc<Model>>,
+    covers: HashMap<Key, Cover>,
     cells: HashMap<(u16, NodeId), Arc<SceneryCell>>,
 }
 
@@ -126,25 +149,33 @@ impl SceneryCache {
         keep_going: &(dyn Fn() -> bool + Sync),
     ) -> (Scenery, bool) {
         let placements = Placement::all(terrain.planet());
-        let needed = needed(terrain, view, &placements);
-        if needed.is_empty() {
-            return (Scenery::default(), true);
-        }
         let populations = terrain.planet().life.len();
-        let mut scenery =
-            Scenery { cells: Vec::new(), models: vec![None; populations], reach_m: vec![0.0; populations] };
+        let mut scenery = Scenery {
+            cells: Vec::new(),
+            models: vec![None; populations],
+            reach_m: vec![0.0; populations],
+            covers: vec![None; populations],
+        };
         let mut is_whole = true;
+        if keep_going() {
+            self.measure_covers(&placements);
+        }
         for placement in &placements {
             let index = usize::from(placement.index);
-            scenery.reach_m[index] = reach_m(placement, view.quality);
-            // From afar, nothing is drawn.
-            if needed.iter().any(|needed| needed.placement.index == placement.index) {
-                scenery.models[index] = self.model(placement.population(), keep_going());
-                is_whole &= scenery.models[index].is_some();
-            }
+            scenery.reach_m[index] = reach_m(placement, &placements, view.quality);
+            scenery.covers[index] = self.covers.get(&Model::key_of(placement.population())).copied();
+            is_whole &= scenery.covers[index].is_some();
+        }
+        let needed = needed(terrain, view, &placements);
+        // From afar, nothing is drawn.
+        for placement in placements.iter().filter(|_| !needed.is_empty()) {
+            let index = usize::from(placement.index);
+            scenery.models[index] = self.model(placement.population(), keep_going());
+            is_whole &= scenery.models[index].is_some();
         }
         is_whole &= self.make_lacking(terrain, &needed, keep_going);
-        let cells = needed.iter().filter_map(|needed| self.known(needed));
+        // Objects of a ground before an edit stand in for those that are not there yet.
+        let cells = needed.iter().filter_map(|needed| self.cells.get(&(needed.placement.index, needed.id)));
         scenery.cells = cells.filter(|cell| !cell.objects.is_empty()).cloned().collect();
         self.trim(&scenery);
         (scenery, is_whole)
@@ -178,6 +209,13 @@ impl SceneryCache {
         self.cells.get(&(needed.placement.index, needed.id)).filter(|cell| cell.key == needed.key)
     }
 
+    /// Measures the covers of populations that are not kept.
+    fn measure_covers(&mut self, placements: &[Placement]) {
+        let lacking = placements.iter().map(Placement::population);
+        let lacking: Vec<_> = lacking.filter(|one| !self.covers.contains_key(&Model::key_of(one))).collect();
+        self.covers.par_extend(lacking.par_iter().map(|one| (Model::key_of(one), canopy::cover(one))));
+    }
+
     /// The model of a population, if it is kept, or one that is made now.
     fn model(&mut self, population: &Population, may_make: bool) -> Option<Arc<Model>> {
         let key = Model::key_of(population);
@@ -194,6 +232,9 @@ impl SceneryCache {
         if kept > MOST_KEPT {
             self.cells = scenery.cells.iter().map(|cell| ((cell.population, cell.id), cell.clone())).collect();
         }
+        if self.covers.len() > 64 * MAX_POPULATIONS {
+            self.covers.clear();
+        }
         if self.models.len() > 2 * MAX_POPULATIONS {
             self.models.retain(|key, _| scenery.models.iter().flatten().any(|model| model.key == *key));
         }
@@ -201,6 +242,26 @@ impl SceneryCache {
 }
 
 impl Scenery {
+    /// What populations cover, each with its reach in metres, as far as it is known. `populations`: those of the
+    /// planet, or of a newer one with as many.
+    pub(crate) fn canopy<'a>(
+        &'a self,
+        populations: &'a [Population],
+    ) -> impl Iterator<Item = (&'a Population, CanopyLayer, f64)> {
+        let known = populations.iter().zip(&self.covers).zip(&self.reach_m);
+        known.filter(|((population, _), _)| population.enabled).filter_map(|((population, cover), reach_m)| {
+            Some((population, CanopyLayer::new(population, cover.as_ref()?), *reach_m))
+        })
+    }
+
+    /// For each population, the area of neighbours that shade an object; see [`CanopyLayer::neighbours`].
+    pub(crate) fn neighbours(&self, populations: &[Population]) -> Vec<f32> {
+        let area = |(population, cover): (&Population, &Option<Cover>)| {
+            cover.as_ref().map_or(0.0, |cover| CanopyLayer::new(population, cover).neighbours() as f32)
+        };
+        populations.iter().zip(&self.covers).map(area).collect()
+    }
+
     /// Objects in all cells.
     pub fn object_count(&self) -> usize {
         self.cells.iter().map(|cell| cell.objects.len()).sum()
@@ -212,7 +273,7 @@ impl Scenery {
 fn needed<'a>(terrain: &Terrain, view: &View, placements: &'a [Placement]) -> Vec<Needed<'a>> {
     let planet = terrain.planet();
     let (eye, planet_m) = (view.camera.position_planet_m, planet.radius_m());
-    let farthest_m = placements.iter().map(|placement| reach_m(placement, view.quality)).fold(0.0, f64::max);
+    let farthest_m = placements.iter().map(|placement| own_reach_m(placement, view.quality)).fold(0.0, f64::max);
     // From orbit the ground below is not even asked for.
     if eye.length() - planet_m - terrain.height_bounds_m().1 > farthest_m / HEIGHT_COUNTS {
         return Vec::new();
@@ -227,7 +288,7 @@ fn needed<'a>(terrain: &Terrain, view: &View, placements: &'a [Placement]) -> Ve
     let rules = Key::of(&(&planet.biomes, &planet.climate, planet.sea_level_m(), planet.radius_km, planet.seed));
     let mut needed = Vec::new();
     for placement in placements {
-        let reach_m = reach_m(placement, view.quality);
+        let reach_m = reach_m(placement, placements, view.quality);
         // From above, less of the ground is in reach.
         let flat_m = (reach_m * reach_m - (HEIGHT_COUNTS * above_m).powi(2)).max(0.0).sqrt();
         if flat_m <= 0.0 {

@@ -1,6 +1,7 @@
 //! Biomes as two small textures for `material.wgsl`: the biome of each cell of the biome table (row 0 is the hottest or
 //! highest), and a column of parameters for each biome.
 
+use super::life::{CANOPY_ROWS, CanopyRows};
 use super::{gpu, material_kinds};
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
 use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
@@ -9,8 +10,11 @@ use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 pub(crate) const ROCK: usize = MAX_BIOMES;
 pub(crate) const RULES: usize = MAX_BIOMES + 1;
 const COLUMNS: usize = MAX_BIOMES + 2;
-/// Rows of a column, four numbers each.
+/// Rows of a column without its canopy, four numbers each.
 const ROWS: usize = 6;
+/// First row of the canopy.
+pub(crate) const CANOPY: usize = ROWS;
+const ALL_ROWS: usize = ROWS + CANOPY_ROWS;
 
 /// Lengths in metres by which positions are wrapped before they reach the shaders. Periods of repeating patterns divide
 /// them.
@@ -54,19 +58,19 @@ pub(crate) struct BiomeTexels {
     size_px: [u32; 2],
     /// Index into the palette, then 255 if the cell is marked, else 0. Row by row.
     ids: Vec<[u8; 2]>,
-    /// Parameters in the order of [`numbers`] and [`rules`].
+    /// Parameters in the order of [`numbers`] and [`rules`]; then the canopies.
     params: Vec<[f32; 4]>,
 }
 
 impl BiomeTexels {
-    pub(crate) fn new(biomes: &Biomes, marked: Option<&MarkedCells>) -> Self {
+    pub(crate) fn new(biomes: &Biomes, marked: Option<&MarkedCells>, canopies: &CanopyRows) -> Self {
         let (columns, rows) = (biomes.table.columns().max(1), biomes.table.rows().len().max(1));
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
         let id = |(column, row)| {
             let index = biomes.table.key(column, row).and_then(|key| biomes.index_of(key)).unwrap_or(0);
             [index as u8, if marked.is_some_and(|marked| marked.contains(column, row)) { 255 } else { 0 }]
         };
-        let mut params = vec![[0.0; 4]; COLUMNS * ROWS];
+        let mut params = vec![[0.0; 4]; COLUMNS * ALL_ROWS];
         let mut put = |column: usize, numbers: [[f64; 4]; ROWS]| {
             for (row, numbers) in numbers.into_iter().enumerate() {
                 params[row * COLUMNS + column] = numbers.map(|number| number as f32);
@@ -77,6 +81,13 @@ impl BiomeTexels {
         }
         put(ROCK, numbers(&shared_rock(biomes), biomes));
         put(RULES, rules(biomes));
+        for (column, biome) in biomes.palette.iter().take(MAX_BIOMES).enumerate() {
+            let (count, rows) = canopies.of_biome(biome.key);
+            params[(ROWS - 1) * COLUMNS + column][3] = count as f32;
+            for (row, numbers) in rows.into_iter().enumerate() {
+                params[(CANOPY + row) * COLUMNS + column] = numbers;
+            }
+        }
         Self { size_px: [columns as u32, rows as u32], ids: cells.map(id).collect(), params }
     }
 }
@@ -149,7 +160,7 @@ impl BiomeTextures {
         };
         let textures = Self {
             ids: make(texels.size_px, wgpu::TextureFormat::Rg8Unorm),
-            params: make([COLUMNS as u32, ROWS as u32], wgpu::TextureFormat::Rgba32Float),
+            params: make([COLUMNS as u32, ALL_ROWS as u32], wgpu::TextureFormat::Rgba32Float),
         };
         textures.write(queue, texels);
         textures
@@ -162,7 +173,7 @@ impl BiomeTextures {
 
     /// Replaces the content of the textures.
     pub(crate) fn write(&self, queue: &wgpu::Queue, texels: &BiomeTexels) {
-        let params = (&self.params, [COLUMNS as u32, ROWS as u32], 16, bytemuck::cast_slice(&texels.params));
+        let params = (&self.params, [COLUMNS as u32, ALL_ROWS as u32], 16, bytemuck::cast_slice(&texels.params));
         let ids = (&self.ids, texels.size_px, 2, texels.ids.as_flattened());
         for (view, [width, height], texel_bytes, data) in [ids, params] {
             let layout = wgpu::TexelCopyBufferLayout {

@@ -9,6 +9,7 @@ use super::biome_table::{BiomeTexels, BiomeTextures, MarkedCells};
 use super::border_tile;
 use super::cloud_map::{CloudFrame, CloudMaps};
 use super::gpu::{self, Slot};
+use super::life::CanopyRows;
 use super::material_maps::MaterialMaps;
 use super::scene::Scene;
 use super::screen_pass::Shared;
@@ -171,7 +172,7 @@ pub(crate) struct Luts {
     air_keys: [Option<(Key, u32)>; FIRST_OF_KEY.len()],
     /// Whether the LUTs of scattered light are drafts.
     air_is_draft: bool,
-    biome_key: Option<(Key, Option<Arc<MarkedCells>>)>,
+    biome_key: Option<(Key, Option<Arc<MarkedCells>>, CanopyRows)>,
     biome_texels: BiomeTexels,
     pub(crate) runs: LutRuns,
 }
@@ -186,7 +187,7 @@ impl Luts {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns) -> Self {
         let air: Vec<_> = AIR_LUTS.iter().map(|lut| AirLut::new(device, lut)).collect();
         let clouds = CloudMaps::new(device);
-        let biome_texels = BiomeTexels::new(&Biomes::default(), None);
+        let biome_texels = BiomeTexels::new(&Biomes::default(), None, &CanopyRows::default());
         let biomes = BiomeTextures::with(device, queue, &biome_texels);
         let map_picture = write_map(device, queue, &no_map());
         let groups = Groups::new(device, patterns, &air, [&clouds.cubes, &map_picture], &biomes);
@@ -231,14 +232,14 @@ impl Luts {
         (patterns, pipelines): (&Patterns, &LutPipelines),
         (uniforms, sun_radius_rad): (&wgpu::BindGroup, f32),
         (revision, drafts): (&Revision, bool),
-        marked: Option<&Arc<MarkedCells>>,
+        (marked, canopies): (Option<&Arc<MarkedCells>>, CanopyRows),
     ) {
         let (planet, keys) = (revision.planet(), revision.keys());
-        let biome_key = Some((keys.materials(), marked.cloned()));
-        if self.biome_key != biome_key {
-            let texels = BiomeTexels::new(&planet.biomes, marked.map(|marked| &**marked));
+        let biome_key = (keys.materials(), marked.cloned(), canopies);
+        if self.biome_key.as_ref() != Some(&biome_key) {
+            let texels = BiomeTexels::new(&planet.biomes, marked.map(|marked| &**marked), &biome_key.2);
             self.write_biomes(device, queue, patterns, texels);
-            self.biome_key = biome_key;
+            self.biome_key = Some(biome_key);
         }
         if planet.atmosphere.is_some() {
             let sun = sun_radius_rad.to_bits();

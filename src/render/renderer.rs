@@ -4,7 +4,7 @@ use super::bloom::Bloom;
 use super::body_tiles::BodyTiles;
 use super::ground_view::GroundView;
 use super::history::{CloudFrame, CloudHistory, Progress, Still};
-use super::life::{Cascades, LifeModels, LifeView, ShadowMap};
+use super::life::{CanopyRows, Cascades, LifeModels, LifeView, ShadowMap};
 use super::luts::{LutRuns, Luts, Patterns};
 use super::passes::Pipelines;
 use super::prepared::{Plan, PlannedBody, PreparedFrame};
@@ -318,7 +318,7 @@ impl Renderer {
                 (&*self.patterns, &self.pipelines.luts),
                 (&body_view.group, values.lut_sun_radius_rad),
                 (&body.revision, scene.drafts),
-                body.marked.as_ref(),
+                (body.marked.as_ref(), CanopyRows::new(body)),
             );
             let life = &mut body_view.life;
             if matches!(scene.debug_view, DebugView::Shaded | DebugView::Albedo) {

@@ -2,6 +2,7 @@
 //! `tellus sky --gpu`.
 
 use super::gpu::{self, Slot};
+use super::life::CanopyRows;
 use super::luts::Luts;
 use super::scene::{Projection, Scene};
 use super::uniforms::{self, Drawn, UniformBuffer};
@@ -85,7 +86,8 @@ impl Renderer {
         let group = self.uniform_group(&frame, &body);
         let mut luts = Luts::new(device, queue, &self.patterns);
         let pipelines = (&*self.patterns, &self.pipelines.luts);
-        luts.update((device, queue), encoder, pipelines, (&group, values.lut_sun_radius_rad), (revision, false), None);
+        let (sun, ground) = ((&group, values.lut_sun_radius_rad), (None, CanopyRows::default()));
+        luts.update((device, queue), encoder, pipelines, sun, (revision, false), ground);
         (group, luts)
     }
 }

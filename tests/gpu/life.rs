@@ -3,7 +3,7 @@
 use crate::support::{SIZE_PX, camera, debug, frame_of, gpu, surface_of};
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::life::Stone;
+use tellus::planet::life::{ReadyPopulation, Stone};
 use tellus::planet::{Biome, Form, Planet, Population, Table};
 use tellus::render::DebugView;
 use tellus::sphere::LatLon;
@@ -144,4 +144,54 @@ fn from_afar_and_in_debug_views_nothing_is_drawn() {
     let sun = LatLon::from_degrees(LAT_DEG, LON_DEG).direction();
     let heights = gpu().radiance(&debug(frame_of(&surface, &planet, near, sun), DebugView::Height));
     assert!(heights.iter().all(|pixel| !is_red(*pixel)));
+}
+
+/// A grey sphere with one of the ready populations.
+fn covered_by(name: &str) -> Arc<Planet> {
+    let named = ReadyPopulation::named(name).unwrap();
+    let all = Population::default();
+    let population = Population {
+        biomes: String::new(),
+        temperature_from_c: all.temperature_from_c,
+        temperature_to_c: all.temperature_to_c,
+        moisture_from: all.moisture_from,
+        moisture_to: all.moisture_to,
+        ..named
+    };
+    let mut planet = (*planet(1.0, 1.0)).clone();
+    planet.life = vec![population];
+    Arc::new(planet)
+}
+
+fn mean(pixels: &[[f32; 3]]) -> [f64; 3] {
+    let sum = pixels.iter().fold([0.0; 3], |sum, pixel| std::array::from_fn(|c| sum[c] + f64::from(pixel[c])));
+    sum.map(|sum| sum / pixels.len() as f64)
+}
+
+/// Mean light of a view with its objects, and with the canopy that stands for them from afar.
+fn near_and_far(planet: &Arc<Planet>, view: View, away_deg: f64, shown: DebugView) -> [[f64; 3]; 2] {
+    let sun = LatLon::from_degrees(LAT_DEG - away_deg, LON_DEG).direction();
+    let mut surface = surface_of(planet, &view);
+    let look = |surface: &Surface| mean(&gpu().radiance(&debug(frame_of(surface, planet, view, sun), shown)));
+    let near = look(&surface);
+    surface.scenery.cells.clear();
+    surface.scenery.reach_m.fill(0.0);
+    [near, look(&surface)]
+}
+
+#[test]
+fn the_canopy_from_afar_has_the_colour_and_the_light_of_its_objects() {
+    for name in ["Broadleaf tree", "Conifer", "Shrub", "Grass", "Boulder"] {
+        let planet = covered_by(name);
+        let population = &planet.life[0];
+        let altitude_m = (12.0 * population.height_m).max(8.0);
+        for pitch_deg in [-90.0, -35.0] {
+            let view = view(&planet, altitude_m, pitch_deg);
+            for (shown, away_deg) in [(DebugView::Albedo, 0.0), (DebugView::Shaded, 20.0), (DebugView::Shaded, 65.0), (DebugView::Shaded, -45.0)] {
+                let [near, far] = near_and_far(&planet, view, away_deg, shown);
+                let off: [f64; 3] = std::array::from_fn(|c| far[c] / near[c]);
+                println!("{name} {pitch_deg} {away_deg} {shown:?}: {near:.3?} {far:.3?} {off:.2?}");
+            }
+        }
+    }
 }

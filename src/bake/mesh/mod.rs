@@ -33,6 +33,7 @@ mod tileset;
 use super::progress::Progress;
 use super::sidecar::of_planet;
 use super::{BakeError, Detail, Outcome, Region};
+use crate::life::Canopies;
 use crate::planet::Planet;
 use crate::planet::file::Target;
 use crate::terrain::Terrain;
@@ -255,7 +256,8 @@ impl MeshBake {
         let side = u64::from(self.cells) + 1;
         let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
         let progress = Progress::new(squares.len() as u64 * (side * side + texels), go_on);
-        let surface = Surface { terrain, water: self.water, detail: self.detail };
+        let canopies = Canopies::new(planet);
+        let surface = Surface { terrain, water: self.water, detail: self.detail, canopies: &canopies };
         let mut pieces = Vec::with_capacity(squares.len());
         for square in &squares {
             let mut patch = Patch::new(square, self.cells, &surface, &progress);

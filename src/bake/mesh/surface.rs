@@ -4,6 +4,7 @@ use super::MeshWater;
 use crate::bake::Detail;
 use crate::bake::maps::{depth_m, mean_color, through_water};
 use crate::bake::progress::Progress;
+use crate::life::Canopies;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -23,6 +24,7 @@ pub(super) struct Surface<'a> {
     pub(super) terrain: &'a Terrain,
     pub(super) water: MeshWater,
     pub(super) detail: Detail,
+    pub(super) canopies: &'a Canopies,
 }
 
 /// A point of the surface.
@@ -95,7 +97,7 @@ impl Surface<'_> {
     fn point(&self, dir_planet: DVec3, sample: &Sample, slope: DVec3) -> Point {
         let planet = self.terrain.planet();
         let biome = planet.biomes.palette.get(sample.biome);
-        let ground = biome.map_or([0.5; 3], mean_color);
+        let ground = self.canopies.albedo(sample, biome.map_or([0.5; 3], mean_color));
         let mut point = Point {
             dir_planet,
             height_m: sample.height_m,

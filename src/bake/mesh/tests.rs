@@ -25,13 +25,13 @@ fn mesh(area: Area, cells: u32) -> MeshBake {
     MeshBake::new(area, cells, MeshFormat::Glb)
 }
 
-fn surface<'a>(mesh: &MeshBake, terrain: &'a Terrain) -> Surface<'a> {
-    Surface { terrain, water: mesh.water, detail: mesh.detail }
+fn surface<'a>(mesh: &MeshBake, terrain: &'a Terrain, canopies: &'a Canopies) -> Surface<'a> {
+    Surface { terrain, water: mesh.water, detail: mesh.detail, canopies }
 }
 
 fn patches(mesh: &MeshBake) -> Vec<(Square, Patch)> {
-    let terrain = terrain();
-    let surface = surface(mesh, &terrain);
+    let (terrain, canopies) = (terrain(), Canopies::default());
+    let surface = surface(mesh, &terrain, &canopies);
     let progress = Progress::new(1, &|_| true);
     let squares = Square::all(&mesh.area, terrain.planet().radius_m());
     let patch = |square| {
@@ -201,8 +201,8 @@ fn water_apart_covers_what_is_wet_and_nothing_far_from_it() {
 fn textures_of_normals_turn_the_meshs_normals_into_the_grounds() {
     let mesh = MeshBake { water: MeshWater::None, ..mesh(REGION, 8) };
     let (square, patch) = patch(&mesh);
-    let terrain = terrain();
-    let surface = surface(&mesh, &terrain);
+    let (terrain, canopies) = (terrain(), Canopies::default());
+    let surface = surface(&mesh, &terrain, &canopies);
     let textures = Textures::new(&square, 64, &patch, &surface, &Progress::new(1, &|_| true)).unwrap();
     let pixels = |file: &[u8]| {
         let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();

@@ -18,6 +18,7 @@ use super::{MeshWater, Piece, SAMPLES, Steps, glb, has_final_maps};
 use crate::bake::progress::Progress;
 use crate::bake::sidecar::of_planet;
 use crate::bake::{BakeError, Detail, Outcome, Region, make_folder};
+use crate::life::Canopies;
 use crate::made::{Ledger, crc32_of, identity};
 use crate::planet::file::{read, write_atomically};
 use crate::planet::{Key, Planet};
@@ -117,10 +118,11 @@ impl Tileset {
         }
         let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
         let side = u64::from(self.cells) + 1;
+        let canopies = Canopies::new(planet);
         let progress = Progress::new(missing.len() as u64 * (side * side + texels), go_on);
         progress.each(&missing, |node, _| {
             let path = folder.join(uri(*node));
-            self.write(terrain, *node, &path, &progress)?;
+            self.write((terrain, &canopies), *node, &path, &progress)?;
             if progress.is_stopped() {
                 return Ok(());
             }
@@ -253,14 +255,20 @@ impl Tileset {
         std::f64::consts::FRAC_PI_2 * planet.radius_m() / f64::from(self.cells) / f64::from(1_u32 << level)
     }
 
-    fn write(&self, terrain: &Terrain, node: NodeId, path: &Path, progress: &Progress<'_>) -> Result<(), BakeError> {
+    fn write(
+        &self,
+        (terrain, canopies): (&Terrain, &Canopies),
+        node: NodeId,
+        path: &Path,
+        progress: &Progress<'_>,
+    ) -> Result<(), BakeError> {
         let planet = terrain.planet();
         let (radius_m, spacing_m) = (planet.radius_m(), self.spacing_m(planet, node.level));
         let skirt_m = spacing_m * SKIRT;
         // Floats count from the middle of the tile; whole numbers from a corner that follows from the vertices.
         let middle_planet_m = if self.is_quantized { DVec3::ZERO } else { node.direction(0.5, 0.5) * radius_m };
         let square = Square::of_node(node, radius_m, middle_planet_m);
-        let surface = Surface { terrain, water: self.water, detail: self.detail };
+        let surface = Surface { terrain, water: self.water, detail: self.detail, canopies };
         let mut patch = Patch::new(&square, self.cells, &surface, progress);
         if progress.is_stopped() {
             return Ok(());

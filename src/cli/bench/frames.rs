@@ -11,10 +11,11 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// Size of the frames.
-const SIZE_PX: [u32; 2] = [640, 360];
+pub(super) const SIZE_PX: [u32; 2] = [640, 360];
 /// Height of the near view.
 const NEAR_M: f64 = 12_000.0;
-const QUALITIES: [(&str, Quality); 3] = [("low", Quality::Low), ("medium", Quality::Medium), ("high", Quality::High)];
+pub(super) const QUALITIES: [(&str, Quality); 3] =
+    [("low", Quality::Low), ("medium", Quality::Medium), ("high", Quality::High)];
 
 /// A list of frames: the opening view and one from 12 km at each quality. `frame_ms`, and the part of it that clouds,
 /// sea and air take; `moving_ms`, a frame of a camera that moves, with clouds carried over. `None` without a GPU.

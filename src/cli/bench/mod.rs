@@ -9,6 +9,7 @@
 //! - [`structure`]: time to solve plates, weather and rivers, and points a second with rivers
 //! - [`clouds`]: time of cloud maps and queries
 //! - [`frames`]: time of a frame and of its clouds, sea and air
+//! - [`life`]: time of objects on the ground: their meshes, their places, frames with them
 //! - [`thumbnails`]: time of nine small pictures
 //! - [`air`]: time that new LUTs of the air take on the GPU
 
@@ -18,6 +19,7 @@ mod clouds;
 mod collision;
 mod edits;
 mod frames;
+mod life;
 mod noise;
 mod queries;
 mod sculpt;
@@ -69,6 +71,8 @@ enum Part {
     Clouds,
     /// Frames on the GPU, and what their parts take
     Frames,
+    /// Plants and stones: their meshes, their places, and frames with and without them
+    Life,
     /// Nine variations as small pictures
     Thumbnails,
     /// LUTs of the air, on the GPU
@@ -142,6 +146,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if wants(Part::Frames) {
         report["frames"] = json!(frames::measure(first));
+    }
+    if wants(Part::Life) {
+        report["life"] = life::measure(&Arc::new(shipped::default_planet()))?;
     }
     if wants(Part::Thumbnails) {
         report["thumbnails"] = json!([thumbnails::measure(first), thumbnails::measure(&shipped::default_planet())]);

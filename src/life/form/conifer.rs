@@ -95,8 +95,8 @@ pub(super) fn build(form: &Conifer, detail: &Detail) -> Mesh {
             (0..most).map(|i| all[(i * all.len() / most + jump(i)).min(all.len() - 1)]).collect()
         }
     };
-    let room = detail.pick([3700, 640, 64, 0]);
-    let each = (room / used.len().max(1)).clamp(2, 44);
+    let room = detail.pick([6800, 640, 64, 0]);
+    let each = (room / used.len().max(1)).clamp(2, 72);
     let needles = mix(0.55, 1.0, form.needles as f32);
     let each = if detail.level == 0 { (each as f32 * needles) as usize } else { each };
     for (i, branch) in used.iter().enumerate() {
@@ -144,6 +144,7 @@ fn feather(mesh: &mut Mesh, branch: &Branch, detail: &Detail, count: usize, need
     let size = detail.pick([1.0, 1.75, 2.6, 1.0]) * detail.swell() * mix(0.9, 1.05, needles);
     // Fewer twigs on a coarse level are longer, but the branch keeps its length.
     let crowd = (30.0 / twigs as f32).sqrt().min(1.6);
+    let push = 0.45 * pow(branch.foot.z.max(0.0), 1.4);
     for k in 0..twigs {
         let s = mix(0.12, 0.97, pow((k as f32 + 0.5) / twigs as f32, 0.8));
         let hand = [1.0, -1.0, 0.0, 1.0, 0.0, -1.0, 0.0][k % 7];
@@ -168,7 +169,7 @@ fn feather(mesh: &mut Mesh, branch: &Branch, detail: &Detail, count: usize, need
         let normal = branch.out * 0.9 + Vec3::Z * 0.45 + along * 0.25 + random.ball() * 0.12;
         let open = (0.25 + 0.75 * s) * mix(0.8, 1.0, branch.high) * if hangs { 0.8 } else { 1.0 };
         let light = open * random.range(0.9, 1.1) * detail.pick([1.0, 1.0, 1.25, 1.0]);
-        let sway = 0.45 * pow(branch.foot.z.max(0.0), 1.4) + 0.25 * s;
+        let sway = push + 0.25 * s;
         let look = Look { part: mix(0.75, 1.0, s), light: light * 0.72, sway };
         let tip = Look { part: 1.0, light, sway: sway + 0.1 };
         let at = branch.at(s.min(1.0 - 0.5 * length / branch.length.max(length)));

@@ -37,8 +37,20 @@ pub(super) struct Growth {
 
 /// Skeleton grown from a stem towards points.
 pub(super) fn grow(stem: &[Vec3], points: &[Vec3], rules: &Growth, random: &mut Random) -> Vec<Node> {
+    grow_shrub(stem, &[], points, rules, random)
+}
+
+/// Skeleton grown from a stem, and from shoots around its foot, towards points.
+pub(super) fn grow_shrub(
+    stem: &[Vec3],
+    shoots: &[Vec3],
+    points: &[Vec3],
+    rules: &Growth,
+    random: &mut Random,
+) -> Vec<Node> {
     let node = |(i, &at): (usize, &Vec3)| Node { at, parent: i.saturating_sub(1), children: 1, load: 0.0 };
     let mut nodes: Vec<Node> = stem.iter().enumerate().map(node).collect();
+    nodes.extend(shoots.iter().map(|&at| Node { at, parent: 0, children: 1, load: 0.0 }));
     let mut near: Vec<(f32, usize)> = vec![(f32::MAX, 0); points.len()];
     let mut first = 0;
     for _ in 0..160 {

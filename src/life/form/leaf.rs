@@ -1,6 +1,8 @@
-//! Leaves: single triangles, bent pairs and blades, drawn from both sides.
+//! Leaves: single triangles, bent pairs, twigs, stars and blades, drawn from both sides.
 
 use super::build::{Look, Mesh};
+use super::math::{TURN, cos, sin};
+use super::random::Random;
 use glam::Vec3;
 
 /// Leaf or cluster of leaves.
@@ -46,6 +48,59 @@ pub(super) fn pair(mesh: &mut Mesh, leaf: &Leaf, bend: f32) {
     let end = mesh.vertex(at + along * length, normal + along * 0.2, tip);
     mesh.triangle(foot, end, a);
     mesh.triangle(foot, b, end);
+}
+
+/// Twig: leaves to both sides of a line and one at its end, two triangles each.
+///
+/// `leaf` is the leaf at the end; the twig reaches back from its foot. `fan` is the angle between leaves and twig.
+pub(super) fn twig(mesh: &mut Mesh, leaf: &Leaf, blades: usize, fan: f32, random: &mut Random) {
+    let Leaf { at, along, across, length, width, normal, look, tip } = *leaf;
+    let up = across.cross(along);
+    let up = if up.dot(normal) < 0.0 { -up } else { up };
+    for k in 0..blades {
+        let hand = if k == 0 { 0.0 } else { 1.0 - 2.0 * (k % 2) as f32 };
+        let angle = hand * fan * random.range(0.75, 1.3) + random.signed() * 0.15;
+        let (s, c) = (sin(angle), cos(angle));
+        let roll = random.signed() * 0.6;
+        let way = along * c + across * s;
+        let side = ((across * c - along * s) + up * roll).normalize_or(across);
+        let long = length * random.range(0.75, 1.15);
+        let foot = at - along * (0.36 * length * k.div_ceil(2) as f32);
+        let half = side * (width * 0.5 * random.range(0.85, 1.15));
+        let skew = way * (long * random.range(-0.16, 0.16));
+        let belly = foot + way * (long * random.range(0.34, 0.46));
+        let end = foot + way * long - up * (long * random.range(0.1, 0.4));
+        let normal = normal - side * (0.3 * roll);
+        let glow = random.range(0.88, 1.12);
+        let [look, tip] = [look, tip].map(|l| Look { light: l.light * glow, ..l });
+        let a = mesh.vertex(belly - half - skew, normal - side * 0.3, look);
+        let b = mesh.vertex(belly + half + skew, normal + side * 0.3, look);
+        let end = mesh.vertex(end, normal + way * 0.3, tip);
+        mesh.triangle(a, b, end);
+        let foot = mesh.vertex(foot - up * (0.1 * long), normal - way * 0.2, look);
+        mesh.triangle(a, foot, b);
+    }
+}
+
+/// Star: triangles around one centre, turned against one another, whose corners are the tips of leaves.
+pub(super) fn star(mesh: &mut Mesh, leaf: &Leaf, triangles: usize, random: &mut Random) {
+    let Leaf { at, along, across, length, width, normal, look, tip } = *leaf;
+    let up = across.cross(along).normalize_or(normal);
+    let up = if up.dot(normal) < 0.0 { -up } else { up };
+    for t in 0..triangles {
+        let spin = TURN / 3.0 * t as f32 / triangles as f32;
+        let corner = [0.0, 1.0, 2.0].map(|k: f32| {
+            let angle = spin + k * TURN / 3.0 + random.signed() * 0.5;
+            let far = random.range(0.62, 1.2);
+            let out = along * (cos(angle) * length * far) + across * (sin(angle) * width * far);
+            // Tips bend down, so that the star is a small dome.
+            let place = at + out + up * (length * random.range(-0.45, 0.05));
+            let glow = 0.5 + 0.5 * cos(angle);
+            let mixed = Look { light: look.light + (tip.light - look.light) * glow, ..tip };
+            mesh.vertex(place, normal + out.normalize_or_zero() * 0.45, mixed)
+        });
+        mesh.triangle(corner[0], corner[1], corner[2]);
+    }
 }
 
 /// Point of a blade's path.

@@ -3,7 +3,8 @@
 //! - `build`, `math`, `random`: meshes, arithmetic and random numbers, the same on every machine
 //! - `tube`, `leaf`, `sphere`, `grow`, `clump`: parts that several kinds share
 //! - `sight`: what is seen from the side, for levels of detail that match
-//! - `tree`, `crown`, `conifer`, `palm`, `tuft`, `cushion`, `cactus`, `mushroom`: kinds of plant
+//! - `cover`: how much a form covers, and its light, for what is seen of many from afar
+//! - `tree`, `crown`, `foliage`, `conifer`, `palm`, `tuft`, `cushion`, `cactus`, `mushroom`: kinds of plant
 //! - `stone`, `crystal`: kinds of rock; `bulbs`, `fans`, `tendrils`: kinds of strange life
 
 mod build;
@@ -11,10 +12,12 @@ mod bulbs;
 mod cactus;
 mod clump;
 mod conifer;
+mod cover;
 mod crown;
 mod crystal;
 mod cushion;
 mod fans;
+mod foliage;
 mod grow;
 mod leaf;
 mod math;
@@ -34,6 +37,7 @@ mod tuft;
 use crate::planet::Form;
 use build::Detail;
 pub use build::{Mesh, Vertex};
+pub(crate) use cover::Cover;
 
 /// Number of levels of detail: 0 is the nearest.
 pub const LEVELS: usize = 4;
@@ -72,6 +76,14 @@ pub fn mesh(form: &Form, seed: u32, level: usize) -> Mesh {
     let build = form.builder(seed);
     let near = build(&Detail { level: 0, seed, fill: 1.0 }).fit();
     if level == 0 { near } else { matched(&*build, seed, level.min(LEVELS - 1), &sight::look(&near)) }
+}
+
+/// The nearest and the farthest mesh of a form.
+pub(super) fn extremes(form: &Form, seed: u32) -> [Mesh; 2] {
+    let build = form.builder(seed);
+    let near = build(&Detail { level: 0, seed, fill: 1.0 }).fit();
+    let far = matched(&*build, seed, LEVELS - 1, &sight::look(&near));
+    [near, far]
 }
 
 /// Meshes of a form at all levels of detail: faster than one by one.

@@ -99,9 +99,9 @@ fn look(age: f32, s: f32, shade: f32) -> Look {
 
 /// Frond with single leaflets.
 fn feather(mesh: &mut Mesh, form: &Palm, detail: &Detail, frond: &Frond, count: usize, age: f32, random: &mut Random) {
-    let room = detail.pick([3050, 600, 0, 0]) / count.max(1);
+    let room = detail.pick([6400, 600, 0, 0]) / count.max(1);
     let stalk = detail.pick([5, 3, 2, 2]);
-    let leaflets = room.saturating_sub(2 * stalk).clamp(4, 120) / 2;
+    let leaflets = room.saturating_sub(2 * stalk).clamp(4, 180) / 2;
     let length = form.frond_length as f32;
     let wide = length * form.leaflets as f32 * 0.62 * mix(0.55, 1.0, (age * 4.0).min(1.0));
     let rib = |i: usize| {

@@ -2,39 +2,38 @@
 
 use super::build::{Detail, Look, Mesh};
 use super::clump;
-use super::crown::{Outline, Spot};
+use super::crown::{Canopy, Spot};
+use super::foliage::Foliage;
 use super::grow::{self, Growth, Node};
-use super::leaf::{self, Leaf};
 use super::math::{TURN, around, cos, exp, mix, pow, smooth};
 use super::random::{Random, noise};
 use super::tube::{self, Knot};
 use crate::planet::life::{Crown, Tree};
 use glam::Vec3;
 
-/// Triangles of leaves of a dense crown at the nearest level.
-const LEAVES: f32 = 2800.0;
-
 /// Skeleton and leaf spots of a tree, from which all levels are drawn.
 pub(super) struct Plan<'a> {
     form: &'a Tree,
     nodes: Vec<Node>,
     branches: Vec<Vec<usize>>,
+    canopy: Canopy,
     spots: Vec<Spot>,
     seed: u32,
     /// Height above which a trunk is hidden in the crown.
     hidden: f32,
-    /// Longest leaf of a far level.
-    longest: f32,
+    /// Whether it is a shrub, which branches at the ground.
+    low: bool,
 }
 
 /// Growth of a tree.
 pub(super) fn plan(form: &Tree, seed: u32) -> Plan<'_> {
     let mut random = Random::new(seed, 1);
-    let outline = Outline::new(form);
-    let spots = outline.spots(if form.leaves < 0.02 { 620 } else { 430 }, &mut random);
+    let canopy = Canopy::new(form, &mut random);
+    let outline = canopy.outline;
+    let spots = canopy.spots(if form.leaves < 0.02 { 620 } else { 430 }, &mut random);
     // Far levels take the first spots, which lie evenly over the crown.
     let places: Vec<Vec3> = spots.iter().map(|s| s.at).collect();
-    let spots: Vec<Spot> = clump::even_order(&places, 80).iter().map(|&i| spots[i]).collect();
+    let spots: Vec<Spot> = clump::even_order(&places, 160).iter().map(|&i| spots[i]).collect();
     let size = outline.size();
     let irregular = form.irregular as f32;
     let step = (size * 0.075).clamp(0.012, 0.06);
@@ -46,7 +45,8 @@ pub(super) fn plan(form: &Tree, seed: u32) -> Plan<'_> {
     };
     // Several branches part low on a shrub.
     let end = (outline.foot + outline.height * leader).clamp(0.04, 0.95).max(form.trunk as f32);
-    let end = if form.trunk < 0.08 && form.crown == Crown::Round { 0.04 } else { end };
+    let low = outline.low();
+    let end = if low { 0.04 } else { end };
     let rings = (end / step).clamp(2.0, 40.0) as usize;
     let stem: Vec<Vec3> = (0..=rings)
         .map(|i| {
@@ -55,14 +55,33 @@ pub(super) fn plan(form: &Tree, seed: u32) -> Plan<'_> {
             Vec3::new(sway(11), sway(23), 0.0) * (0.14 * irregular * z.min(0.6)) + Vec3::Z * z
         })
         .collect();
-    let points: Vec<Vec3> = spots.iter().filter(|s| s.hang == 0.0).map(|s| s.at).collect();
+    // Twigs end below the leaves.
+    let sunk = 0.1 * size * smooth(0.3, 0.6, form.leaves as f32);
+    let points: Vec<Vec3> = spots.iter().filter(|s| s.hang == 0.0).map(|s| s.at - s.normal * sunk).collect();
     let pull = Vec3::Z * if form.crown == Crown::Umbrella { 0.0 } else { 0.12 };
     let rules = Growth { step, reach: step * 1.9, pull, wander: 0.25 + 0.5 * irregular, most: 1400 };
-    let mut nodes = grow::grow(&stem, &points, &rules, &mut random);
-    grow::smooth(&mut nodes, stem.len());
+    let shoots: Vec<Vec3> = (0..if low { 5 } else { 0 })
+        .map(|i| around(i as f32 * TURN / 5.0 + random.range(0.0, 0.9)) * 0.05 + Vec3::Z * random.range(0.02, 0.06))
+        .collect();
+    let mut nodes = grow::grow_shrub(&stem, &shoots, &points, &rules, &mut random);
+    grow::smooth(&mut nodes, stem.len() + shoots.len());
     let branches = grow::branches(&nodes);
     let hidden = outline.foot + 0.4 * outline.height;
-    Plan { form, nodes, branches, spots, seed, hidden, longest: 0.34 * size }
+    let spots = if form.leaves < 0.45 { attached(spots, &nodes, &branches, 1.2 * step) } else { spots };
+    Plan { form, nodes, branches, canopy, spots, seed, hidden, low }
+}
+
+/// Spots of a sparse crown, moved to the branches that are drawn.
+fn attached(mut spots: Vec<Spot>, nodes: &[Node], branches: &[Vec<usize>], most: f32) -> Vec<Spot> {
+    let twigs = branches.iter().take(26).flatten().map(|&i| &nodes[i]).filter(|n| n.load < 0.2);
+    let places: Vec<Vec3> = twigs.map(|n| n.at).collect();
+    for spot in spots.iter_mut().filter(|s| s.hang == 0.0) {
+        let away = |p: &&Vec3| p.distance_squared(spot.at);
+        if let Some(near) = places.iter().min_by(|a, b| away(a).total_cmp(&away(b))) {
+            spot.at = *near + (spot.at - *near).clamp_length_max(most);
+        }
+    }
+    spots
 }
 
 /// Mesh of a planned tree.
@@ -70,7 +89,12 @@ pub(super) fn build(plan: &Plan, detail: &Detail) -> Mesh {
     let mut mesh = Mesh::default();
     let leaves = plan.form.leaves as f32;
     let bare = leaves < 0.02;
-    let wood = if bare { detail.pick([3900, 690, 138, 28]) } else { detail.pick([1150, 190, 40, 6]) };
+    // Sparse leaves show the twigs.
+    let dense = smooth(0.25, 0.7, leaves);
+    let near = mix(if plan.low { 1450.0 } else { 3200.0 }, if plan.low { 480.0 } else { 1500.0 }, dense) as usize;
+    let far = mix(230.0, 170.0, dense) as usize;
+    let farther = mix(43.0, 34.0, dense) as usize;
+    let wood = if bare { detail.pick([3900, 445, 112, 28]) } else { detail.pick([near, far, farther, 6]) };
     plan.wood(&mut mesh, detail, wood, bare);
     if bare {
         return mesh;
@@ -81,8 +105,7 @@ pub(super) fn build(plan: &Plan, detail: &Detail) -> Mesh {
         clump::draw(&mut mesh, &points, core * detail.swell(), plan.seed);
         return mesh;
     }
-    let count = (leaves * detail.pick([LEAVES, 500.0, 98.0, 56.0])) as usize;
-    plan.leaves(&mut mesh, detail, count.clamp(12, detail.pick([4000, 4000, 98, 22])));
+    Foliage { form: plan.form, canopy: &plan.canopy, spots: &plan.spots, seed: plan.seed }.draw(&mut mesh, detail);
     mesh
 }
 
@@ -90,13 +113,14 @@ impl Plan<'_> {
     /// Knots of a branch's path.
     fn knots(&self, path: &[usize], swell: f32) -> Vec<Knot> {
         let thick = self.form.trunk_width as f32 * 0.5;
+        let roots = if self.low { 0.1 } else { 0.6 };
         let own = path.get(1).map_or(1.0, |&i| self.nodes[i].load);
         let last = path.len() - 1;
         let knot = |(i, &node): (usize, &usize)| {
             let node = &self.nodes[node];
-            let load = if i == 0 { own.max(if path[0] == 0 { 1.0 } else { 0.0 }) } else { node.load };
+            let load = if i == 0 { own.max(if path[0] == 0 && !self.low { 1.0 } else { 0.0 }) } else { node.load };
             let z = node.at.z.max(0.0);
-            let flare = if path[0] == 0 { 1.0 - 0.25 * z + 0.6 * exp(-z / 0.035) } else { 1.0 };
+            let flare = if path[0] == 0 { 1.0 - 0.25 * z + roots * exp(-z / 0.035) } else { 1.0 };
             let taper = if i == last { 0.3 } else { 1.0 };
             let radius = (thick * grow::radius(load) * flare).max(0.0016) * taper * mix(swell, 1.0, load.sqrt());
             let light = 0.78 - 0.33 * z * self.form.leaves as f32;
@@ -129,6 +153,7 @@ impl Plan<'_> {
             let girth = knots[knots.len() / 2].radius / thick;
             let most = match detail.level {
                 0 if bare || rank == 0 => 30,
+                0 if self.low => (knots.len() / 3 + 2).min(7),
                 0 => (knots.len() / 2 + 2).min(12),
                 1 if bare => (knots.len() / 3 + 2).min(8),
                 1 => {
@@ -155,7 +180,7 @@ impl Plan<'_> {
             };
             let sides = match detail.level {
                 0 if rank == 0 => 10,
-                0 => (3.0 + girth * 7.0).clamp(3.0, 7.0) as usize,
+                0 => (3.0 + girth * 7.0).clamp(3.0, if self.low { 4.0 } else { 7.0 }) as usize,
                 1 if rank == 0 => 5,
                 _ => 3,
             };
@@ -175,50 +200,4 @@ impl Plan<'_> {
             tube::fluted(mesh, &knots, sides, |a, share| 1.0 + fade(share) * cos(a * 5.0 + phase));
         }
     }
-
-    /// Leaf clusters around the spots.
-    fn leaves(&self, mesh: &mut Mesh, detail: &Detail, count: usize) {
-        let near = (self.form.leaves as f32 * LEAVES).max(6.0);
-        // Leaves that only surround the clumps of a far level stay smaller.
-        let scale = (near / count.max(1) as f32).sqrt();
-        let length = (self.form.leaf_size as f32 * scale).min(self.longest) * detail.swell();
-        // Large leaves of far levels lie along the crown and a little inside, so that the outline stays.
-        let far = detail.pick([0.0, 0.45, 0.8, 0.8]);
-        let mut i = 0;
-        let mut leaf = 0;
-        while i < count {
-            let spot = &self.spots[leaf % self.spots.len()];
-            let mut random = Random::new(self.seed, 1000 + leaf as u32);
-            leaf += 1;
-            let at = spot.at + random.ball() * (length * 0.55 * (1.0 - far))
-                - spot.normal * (length * detail.pick([0.0, 0.3, 0.42, 0.4]) * far);
-            let free = random.direction() + Vec3::Z * -0.25;
-            let along = mix3(free, (free - spot.normal * free.dot(spot.normal)) * 1.5, far);
-            let along = mix3(along, -Vec3::Z + free * 0.3, spot.hang * 0.8).normalize_or(Vec3::X);
-            let across = along.cross(mix3(random.direction(), spot.normal, far * 0.85)).normalize_or(around(1.0));
-            let size = length * if detail.level < 2 { random.range(0.7, 1.3) } else { random.range(0.85, 1.1) };
-            let width = size * random.range(0.5, 0.8) * detail.pick([1.0, 1.1, 1.3, 1.0]) * (1.0 - 0.3 * spot.hang);
-            let normal = spot.normal + random.ball() * 0.22;
-            let light = spot.light * random.range(0.86, 1.1);
-            let sway = 0.65 * pow(at.z.max(0.0), 1.4) + 0.1;
-            let look = Look { part: random.range(0.86, 1.0), light: light * 0.92, sway };
-            let tip = Look { part: 1.0, light: light * 1.05, sway: sway + 0.22 };
-            let at = at - along * (size * 0.4);
-            let one = Leaf { at, along, across, length: size, width, normal, look, tip };
-            if random.unit() < 0.5 && i + 2 <= count {
-                let broad = detail.pick([1.2, 1.3, 1.4, 1.4]);
-                let grown = Leaf { length: size * 1.25, width: width * broad, ..one };
-                leaf::pair(mesh, &grown, random.range(0.05, 0.3));
-                i += 2;
-            } else {
-                leaf::triangle(mesh, &one, random.range(-0.4, 0.6));
-                i += 1;
-            }
-        }
-    }
-}
-
-/// Blend of two vectors.
-fn mix3(a: Vec3, b: Vec3, t: f32) -> Vec3 {
-    a + (b - a) * t
 }

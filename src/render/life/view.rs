@@ -28,7 +28,8 @@ pub(super) struct Instance {
     place: [u16; 2],
     layer: u16,
     axis: u16,
-    padding: [u32; 2],
+    neighbours: f32,
+    padding: u32,
 }
 
 /// Instances of one mesh.
@@ -68,8 +69,8 @@ const NO_LAYER: u16 = u16::MAX;
 fn level_px(quality: Quality) -> [f64; LEVELS - 1] {
     match quality {
         Quality::Low => [360.0, 110.0, 24.0],
-        Quality::Medium => [170.0, 50.0, 13.0],
-        Quality::High => [120.0, 40.0, 11.0],
+        Quality::Medium => [220.0, 55.0, 13.0],
+        Quality::High => [160.0, 42.0, 11.0],
     }
 }
 
@@ -100,7 +101,8 @@ impl LifeView {
         let chosen = body.frozen.as_ref().unwrap_or(view);
         let lowest_m = body.surface.terrain.planet().radius_m() + height_range_m(body.surface).0;
         let culling = Culling::new(chosen, lowest_m.max(0.0));
-        let horizons = Horizons::new(body);
+        let (horizons, populations) = (Horizons::new(body), populations(body));
+        let neighbours = scenery.neighbours(populations);
         let drawn = Drawn::new(view, cascades);
         let mut seen = Bins::new(scenery.models.len());
         let mut casting: [Bins; CASCADES] = std::array::from_fn(|_| Bins::new(scenery.models.len()));
@@ -108,13 +110,14 @@ impl LifeView {
             let is_seen = culling.sees_sphere(cell.center_planet_m, cell.bounding_radius_m);
             let casts = cascades.is_some_and(|cascades| cascades.reaches(cell, drawn.eye_m));
             let index = usize::from(cell.population);
-            let (Some(population), true) = (population(body, index), is_seen || casts) else { continue };
+            let (Some(population), true) = (populations.get(index), is_seen || casts) else { continue };
             let shade = horizons.of(cell).filter(|_| is_seen).and_then(|tile| {
                 let at = tiles.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile))?;
                 Some(Shade { at, within: within(cell.id, tile.id) })
             });
             let array = shade.as_ref().map_or(0, |shade| shade.at.array);
-            let look = Look { population, shade, axis: axis_code(cell.id) };
+            let neighbours = neighbours.get(index).copied().unwrap_or(0.0);
+            let look = Look { population, shade, axis: axis_code(cell.id), neighbours };
             let reach_m = scenery.reach_m.get(index).copied().unwrap_or(0.0);
             for (object, shown) in
                 cell.objects.iter().filter_map(|object| Some((object, drawn.shown(object, reach_m)?)))
@@ -160,10 +163,10 @@ impl LifeView {
     }
 }
 
-/// A population of a body: that of the newest planet, whose colours count, if it has as many as the surface.
-fn population<'a>(body: &'a Body<'_>, index: usize) -> Option<&'a Population> {
+/// The populations of a body: those of the newest planet, whose colours count, if it has as many as the surface.
+pub(super) fn populations<'a>(body: &'a Body<'_>) -> &'a [Population] {
     let (newest, made) = (&body.planet().life, &body.surface.terrain.planet().life);
-    if newest.len() == made.len() { newest.get(index) } else { made.get(index) }
+    if newest.len() == made.len() { newest } else { made }
 }
 
 /// How objects are drawn in a view.
@@ -251,6 +254,8 @@ struct Look<'a> {
     population: &'a Population,
     shade: Option<Shade>,
     axis: u16,
+    /// See [`CanopyLayer::neighbours`](crate::life::canopy::CanopyLayer::neighbours).
+    neighbours: f32,
 }
 
 impl Look<'_> {
@@ -281,7 +286,8 @@ impl Look<'_> {
             place,
             layer: self.shade.as_ref().map_or(NO_LAYER, |shade| shade.at.layer as u16),
             axis: self.axis,
-            padding: [0; 2],
+            neighbours: self.neighbours,
+            padding: 0,
         }
     }
 }

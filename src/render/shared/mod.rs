@@ -11,7 +11,8 @@ pub(crate) use constants::*;
 pub use constants::{MAX_POINTS, MAX_SUNS};
 pub(crate) use structs::*;
 
-use super::biome_table::{ROCK, RULES};
+use super::biome_table::{CANOPY, ROCK, RULES};
+use super::life::{CANOPY_LAYER_ROWS, CANOPY_LAYERS};
 use super::material_maps::{PATTERN_ROUGHNESS, PATTERN_STEEPEST};
 use super::scene::DebugView;
 use super::tone::{self, Tone};
@@ -81,6 +82,9 @@ pub(crate) fn text() -> String {
         ("BIOME_ROCK", &(ROCK as i32)),
         ("BIOME_RULES", &(RULES as i32)),
         ("MIXTURE_ENTRIES", &MIXTURE_ENTRIES),
+        ("CANOPY_ROW", &(CANOPY as i32)),
+        ("CANOPY_LAYERS", &(CANOPY_LAYERS as i32)),
+        ("CANOPY_LAYER_ROWS", &(CANOPY_LAYER_ROWS as i32)),
         ("PATTERN_STEEPEST", &f64::from(PATTERN_STEEPEST)),
         ("PATTERN_ROUGHNESS", &f64::from(PATTERN_ROUGHNESS)),
         ("PATTERN_SIDE", &(material_noise::SIDE as f64)),

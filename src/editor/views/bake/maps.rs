@@ -19,7 +19,18 @@ const LARGE: u64 = 1 << 20;
 /// The maps, grouped.
 const GROUPS: [(&str, &[Map]); 4] = [
     ("Shape", &[Map::Height, Map::Normal, Map::NormalPlanet, Map::Slope]),
-    ("Surface", &[Map::Albedo, Map::Roughness, Map::AmbientOcclusion, Map::Biome, Map::NightLights]),
+    (
+        "Surface",
+        &[
+            Map::Albedo,
+            Map::Roughness,
+            Map::AmbientOcclusion,
+            Map::Biome,
+            Map::Canopy,
+            Map::CanopyHeight,
+            Map::NightLights,
+        ],
+    ),
     (
         "Climate and clouds",
         &[

@@ -1,0 +1,202 @@
+// Canopy: what is seen of objects that are too far away to be drawn one by one, by the density that places them
+// (src/life/suitability.rs). Objects of a population are spread like drops of rain: what they leave of the ground is
+// exp(-areas). As in geometric-optical models of canopies (Li and Strahler, 1985), sun and eye look through the same
+// gaps. Rows of the table: src/render/life/canopy.rs.
+#include "neighbours.wgsl"
+
+// A population at a pixel.
+struct CanopyLayer {
+    albedo: vec3f,
+    // Share of the ground's picture that its objects take
+    seen: f32,
+    // Area of all its objects for each area of ground, as seen from above (x) and from the side (y)
+    areas: vec2f,
+    // Whether its objects cast shadows; area of neighbours that shade one
+    casts: f32,
+    neighbours: f32,
+    height_m: f32,
+    // Biome, and first row of the population
+    at: vec2<i32>,
+}
+
+// Biomes that count at a pixel.
+const CANOPY_BIOMES: i32 = 2;
+
+struct Canopy {
+    layers: array<CanopyLayer, 8>,
+    // For each biome: the end of its layers, the first one's start at 0
+    ends: vec2<i32>,
+    // For each biome: its share of the pixel
+    shares: vec2f,
+    // Share of the ground that is seen
+    floor: f32,
+    // Distance over height of the ray to the eye
+    eye_tangent: f32,
+    // Light of crowns that face the sun or turn away, a factor of mean 1
+    relief: f32,
+}
+
+// What decides about the density at a pixel.
+struct CanopyPlace {
+    slope_deg: f32,
+    // Height above sea level, or above the reference sphere
+    above_m: f32,
+    temperature_c: f32,
+    moisture: f32,
+    distance_m: f32,
+    rel_m: vec3f,
+    // Width of a pixel on the ground
+    footprint_m: f32,
+    // Direction to the sun along the ground, as long as the cosine of its elevation
+    sun_along: vec3f,
+}
+
+// As in src/life/suitability.rs.
+fn between(x: f32, from_x: f32, to_x: f32, softness: f32) -> f32 {
+    return saturate1(1.0 - max(from_x - x, x - to_x) / softness);
+}
+
+// Share of its density that a population has. `row`: its first row.
+fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
+    let ground = biome_param(id, row + 2);
+    let climate = biome_param(id, row + 3);
+    let shore_m = biome_param(id, row + 4).z;
+    let on_land = select(1.0, saturate1(place.above_m - shore_m + 0.5), body.has_sea != 0u);
+    return on_land * between(place.slope_deg, ground.x, ground.y, 3.0) * between(place.moisture, ground.z, ground.w, 0.04)
+        * between(place.above_m, climate.x, climate.y, 15.0) * between(place.temperature_c, climate.z, climate.w, 2.0);
+}
+
+// Crowns at a pixel, mean 0, about -1 to 1: the height of their tops (x) and the rise from here towards the sun (y).
+fn crown_noise(tile_m: f32, place: CanopyPlace) -> vec2f {
+    let lod = log2(max(place.footprint_m, 1e-4) * NOISE_TILE_SIDE / tile_m);
+    let share = 1.0 - smoothstep(3.0, 5.5, lod);
+    if share <= 0.0 { return vec2f(0.0); }
+    let at = ((body.eye_wrap_far_m + place.rel_m) / tile_m).yzx;
+    let height = textureSampleLevel(noise_tile, repeated, at, max(lod, 0.0)).r;
+    let aside = textureSampleLevel(noise_tile, repeated, at + 0.05 * place.sun_along.yzx, max(lod, 0.0)).r;
+    return share * vec2f(2.0 * height - 1.0, aside - height);
+}
+
+// Adds the layers of a biome, the highest first.
+fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, place: CanopyPlace) {
+    let count = i32(biome_param(id, 5).w);
+    var end = select(0, (*canopy).ends.x, number == 1);
+    if count > 0 {
+        let noise = crown_noise(biome_param(id, CANOPY_ROW + 4).x, place);
+        if number == 0 { (*canopy).relief = clamp(1.0 - 3.0 * noise.y, 0.4, 1.6); }
+        var open = 1.0;
+        for (var i = 0; i < count; i++) {
+            let row = CANOPY_ROW + i * CANOPY_LAYER_ROWS;
+            let density = canopy_density(id, row, place);
+            if density <= 0.0 { continue; }
+            let color = biome_param(id, row);
+            let shape = biome_param(id, row + 1);
+            let kind = biome_param(id, row + 4);
+            let areas = density * (1.0 + (0.25 + 0.75 * kind.y) * noise.x) * vec2f(color.w, shape.x);
+            // As in src/life/scenery.rs: up to half their reach all objects are drawn.
+            let drawn = saturate1(2.0 - 2.0 * place.distance_m / max(shape.w, 1e-3));
+            let rest = exp(-(1.0 - drawn) * (areas.x + areas.y * (*canopy).eye_tangent));
+            let size = biome_param(id, row + 5).zw;
+            (*canopy).layers[end] =
+                CanopyLayer(color.rgb, share * open * (1.0 - rest), areas, kind.w, size.x, size.y, vec2<i32>(id, row));
+            open *= rest;
+            end += 1;
+        }
+        (*canopy).floor -= share * (1.0 - open);
+    }
+    if number == 0 { (*canopy).ends = vec2<i32>(end); } else { (*canopy).ends.y = end; }
+    (*canopy).shares[number] = share;
+}
+
+// The canopy of a pixel. `ids`, `shares`: biomes and their shares. `v`: direction to the eye, `n`: normal of the ground.
+fn canopy_at(ids: vec2<i32>, shares: vec2f, n: vec3f, v: vec3f, place: CanopyPlace) -> Canopy {
+    var out: Canopy;
+    out.floor = 1.0;
+    out.relief = 1.0;
+    out.eye_tangent = ray_tangent(dot(n, v));
+    for (var i = 0; i < CANOPY_BIOMES; i++) {
+        if ids[i] >= 0 && shares[i] > 0.004 { add_canopy(&out, i, ids[i], shares[i], place); }
+    }
+    return out;
+}
+
+// What objects of all layers leave to the ground: of the light of a sun with this tangent, and of the sky.
+fn under_canopy(canopy: Canopy, sun_tangent: f32) -> ObjectShade {
+    var out = ObjectShade(1.0, 1.0, vec2f(1.0));
+    for (var biome = 0; biome < CANOPY_BIOMES; biome++) {
+        var casting = vec2f(0.0);
+        for (var i = select(0, canopy.ends.x, biome == 1); i < canopy.ends[biome]; i++) {
+            casting += canopy.layers[i].casts * canopy.layers[i].areas;
+        }
+        out.sun -= canopy.shares[biome] * (1.0 - exp(-casting.x - casting.y * sun_tangent));
+        out.sky -= canopy.shares[biome] * (1.0 - UNDER_CROWNS) * (1.0 - exp(-casting.x));
+    }
+    return out;
+}
+
+// Directions to the sun and to the eye over the ground.
+struct CanopyRays {
+    // Angles from the vertical in degrees: sun, eye
+    sun_deg: f32,
+    eye_deg: f32,
+    // 0 where the eye looks away from the sun, 1 where it looks towards it
+    against: f32,
+    // Of the angle between both
+    cosine: f32,
+}
+
+fn canopy_rays(up: vec3f, sun: vec3f, v: vec3f) -> CanopyRays {
+    let cosines = clamp(vec2f(dot(up, sun), dot(up, v)), vec2f(-1.0), vec2f(1.0));
+    let flat_sun = sun - up * cosines.x;
+    let flat_eye = v - up * cosines.y;
+    let scale = max(length(flat_sun) * length(flat_eye), 1e-6);
+    let angles = degrees(acos(cosines));
+    return CanopyRays(angles.x, angles.y, 0.5 - 0.5 * dot(flat_sun, flat_eye) / scale, dot(sun, v));
+}
+
+// Mean light of what is seen of an object: share of the sun's (x) and of the sky's (y), between the directions that were
+// measured (src/life/form/cover.rs).
+fn object_light(at: vec2<i32>, rays: CanopyRays) -> vec2f {
+    let above = biome_param(at.x, at.y + 5).xy;
+    let aslant = biome_param(at.x, at.y + 6);
+    let sky = biome_param(at.x, at.y + 1).yz;
+    let low = saturate1((rays.sun_deg - 25.0) / 45.0);
+    let aside = saturate1(rays.eye_deg / 60.0);
+    let from_side = mix(mix(aslant.x, aslant.y, low), mix(aslant.z, aslant.w, low), rays.against);
+    return vec2f(mix(mix(above.x, above.y, low), from_side, aside), mix(sky.x, sky.y, aside));
+}
+
+// Areas of the objects that overtop a layer: those of its own height do not.
+fn higher_areas(canopy: Canopy, number: i32) -> vec2f {
+    var sum = vec2f(0.0);
+    for (var i = select(0, canopy.ends.x, number >= canopy.ends.x); i < number; i++) {
+        let over = 1.0 - canopy.layers[number].height_m / max(canopy.layers[i].height_m, 1e-3);
+        sum += canopy.layers[i].casts * over * canopy.layers[i].areas;
+    }
+    return sum;
+}
+
+// Radiance of all layers. `sunlight`: irradiance on a surface that faces the sun; `sky`: irradiance of level ground.
+// `sun_cosine`: of the angle between the sun and the normal of the ground.
+fn canopy_radiance(canopy: Canopy, sunlight: vec3f, sky: vec3f, sun_cosine: f32, rays: CanopyRays) -> vec3f {
+    let sun_tangent = ray_tangent(sun_cosine);
+    var sum = vec3f(0.0);
+    for (var i = 0; i < canopy.ends.y; i++) {
+        let layer = canopy.layers[i];
+        let above = higher_areas(canopy, i);
+        let sun = exp(-above.x - above.y * sun_tangent) * neighbours_leave(layer.neighbours, sun_tangent, rays.cosine);
+        let open = mix(1.0, exp(-above.x), 1.0 - UNDER_CROWNS);
+        // Of crowns that close, one sees the tops, which have more light.
+        let closed = layer.casts * (1.0 - exp(-layer.areas.x));
+        let light = object_light(layer.at, rays) * (1.0 + closed * mix(0.08, 0.3, saturate1(rays.eye_deg / 60.0)));
+        sum += layer.seen * layer.albedo * (sunlight * (sun * canopy.relief * light.x) + sky * (open * light.y));
+    }
+    return sum / PI;
+}
+
+// Mean albedo of objects and ground.
+fn canopy_albedo(canopy: Canopy, ground: vec3f) -> vec3f {
+    var sum = canopy.floor * ground;
+    for (var i = 0; i < canopy.ends.y; i++) { sum += canopy.layers[i].seen * canopy.layers[i].albedo; }
+    return sum;
+}

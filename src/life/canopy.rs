@@ -1,0 +1,134 @@
+//! Canopy: what a population covers of the ground, for what is seen of it from afar and for queries.
+
+use super::form::Cover;
+use super::grid::HECTARE_M2;
+use super::model::seed;
+use super::suitability::Suitability;
+use crate::planet::{Form, Planet, Population};
+use crate::terrain::Sample;
+use rayon::prelude::*;
+
+/// Variants of a form that its cover is the mean of: they differ little.
+const VARIANTS: u32 = 1;
+const _: () = assert!(VARIANTS <= Form::VARIANTS);
+
+/// The cover of a population's form.
+pub(crate) fn cover(population: &Population) -> Cover {
+    let covers: Vec<Cover> =
+        (0..VARIANTS).map(|variant| Cover::new(&population.form, seed(population, variant))).collect();
+    Cover::mean(&covers)
+}
+
+/// Height in metres at which objects begin to count as casting shadows on the ground, and at which all of them do.
+const CASTING_M: [f64; 2] = [0.6, 2.0];
+
+/// What a population covers of the ground where everything suits it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct CanopyLayer {
+    /// Area of its objects as seen from above, for each square metre of ground; more than 1 where they overlap.
+    pub(crate) top: f64,
+    /// Their area as seen from the side, for each square metre of ground.
+    pub(crate) side: f64,
+    /// Mean height, metres.
+    pub(crate) height_m: f64,
+    /// Mean width of an object as seen from above, metres.
+    pub(crate) width_m: f64,
+    /// Mean colour as seen from above (albedo, linear sRGB).
+    pub(crate) color: [f64; 3],
+    /// Share of the objects that cast shadows worth telling of: those high enough.
+    pub(crate) casting: f64,
+    /// Light of what is seen.
+    pub(crate) cover: Cover,
+}
+
+impl CanopyLayer {
+    pub(crate) fn new(population: &Population, cover: &Cover) -> Self {
+        // The mean square of heights that are even over their spread.
+        let square_m2 = population.height_m.powi(2) * (1.0 + population.height_spread.powi(2) / 3.0);
+        let per_m2 = population.per_hectare / HECTARE_M2;
+        let shown = 1.0 - population.sunk;
+        let mix = |wood: f64, leaf: f64| wood + (leaf - wood) * cover.part;
+        Self {
+            top: per_m2 * cover.top * square_m2,
+            side: per_m2 * cover.side * square_m2 * shown,
+            height_m: population.height_m * shown,
+            width_m: (4.0 * cover.top * square_m2 / std::f64::consts::PI).sqrt(),
+            color: std::array::from_fn(|c| mix(population.color[c], population.leaf_color[c])),
+            casting: ((population.height_m - CASTING_M[0]) / (CASTING_M[1] - CASTING_M[0])).clamp(0.0, 1.0),
+            cover: *cover,
+        }
+    }
+
+    /// Area of neighbours that shade an object, by the tangent of the sun's angle from the zenith: crowns of one height
+    /// shade one another from the side only, and the less the more they close.
+    pub(crate) fn neighbours(&self) -> f64 {
+        self.casting * self.side * (-0.5 * self.top).exp()
+    }
+
+    /// Share of the ground that the objects cover as seen from above, at a share of their density.
+    pub(crate) fn covered(&self, share: f64) -> f64 {
+        1.0 - libm::exp(-self.top * share)
+    }
+}
+
+/// What stands at a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Canopy {
+    /// Share of the ground that objects cover as seen from above, 0 to 1.
+    pub cover: f64,
+    /// Mean height of the objects, each counted by what it covers, metres; 0 where nothing stands.
+    pub height_m: f64,
+}
+
+/// The canopies of a planet: the densities of its populations, and what they cover. The default has none.
+#[derive(Clone, Debug, Default)]
+pub struct Canopies {
+    layers: Vec<Option<(Suitability, CanopyLayer)>>,
+}
+
+impl Canopies {
+    /// Measures the forms of a planet, which takes some milliseconds for each population.
+    pub fn new(planet: &Planet) -> Self {
+        let layer = |population: &Population| {
+            let layer = CanopyLayer::new(population, &cover(population));
+            population.enabled.then(|| (Suitability::new(planet, population), layer))
+        };
+        Self { layers: planet.life.par_iter().map(layer).collect() }
+    }
+
+    /// Objects on a hectare at a sample, for each population of the planet: the mean over its groups.
+    pub fn densities_per_hectare(&self, sample: &Sample) -> Vec<f64> {
+        let density =
+            |(suitability, _): &(Suitability, CanopyLayer)| suitability.at(sample) * suitability.population.per_hectare;
+        self.layers.iter().map(|layer| layer.as_ref().map_or(0.0, density)).collect()
+    }
+
+    /// Mean colour (albedo, linear sRGB) of what is seen of a place from far above, with ground of a colour: higher
+    /// objects hide lower ones.
+    pub fn albedo(&self, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
+        let mut seen: Vec<(f64, &CanopyLayer)> = self
+            .layers
+            .iter()
+            .flatten()
+            .map(|(suitability, layer)| (layer.covered(suitability.at(sample)), layer))
+            .filter(|(cover, _)| *cover > 0.0)
+            .collect();
+        seen.sort_by(|(_, a), (_, b)| a.height_m.total_cmp(&b.height_m));
+        seen.iter().fold(ground, |below, (cover, layer)| {
+            std::array::from_fn(|c| below[c] + (layer.color[c] - below[c]) * cover)
+        })
+    }
+
+    /// What stands at a sample.
+    pub fn at(&self, sample: &Sample) -> Canopy {
+        let (mut open, mut covered, mut height_m) = (1.0, 0.0, 0.0);
+        for (suitability, layer) in self.layers.iter().flatten() {
+            let cover = layer.covered(suitability.at(sample));
+            open *= 1.0 - cover;
+            covered += cover;
+            height_m += cover * layer.height_m;
+        }
+        Canopy { cover: 1.0 - open, height_m: if covered > 0.0 { height_m / covered } else { 0.0 } }
+    }
+}

@@ -1,0 +1,175 @@
+//! Cover of a form: how much of the ground and of a view it hides, and the mean light of what is seen of it.
+
+use super::build::Mesh;
+use super::math::{TURN, around, smooth};
+use super::sight;
+use crate::planet::Form;
+use glam::{Vec2, Vec3};
+
+/// Angles of the eye from the zenith, degrees.
+const EYES_DEG: [f32; 2] = [0.0, 60.0];
+/// Angles of the sun from the zenith, degrees.
+const SUNS_DEG: [f32; 2] = [25.0, 70.0];
+/// Turns of the form that the means are of.
+const TURNS: u8 = 2;
+/// Pixels along a side of the pictures.
+const SIDE: usize = 56;
+/// As in `life.wgsl`: how soft the edge between light and shade is on leaves of the farthest level, the light that comes
+/// through them, and the way towards the sun within a crown that `light` already darkens.
+const SOFT: f32 = 0.8;
+const TRANSLUCENT: f32 = 0.25;
+const OWN: f32 = 0.1;
+/// Distance from a surface at which it does not shade itself, in heights.
+const BIAS: f32 = 0.03;
+
+/// How much a form covers, in squares of its height, and how it looks from afar.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Cover {
+    /// Covered area as seen from above.
+    pub top: f64,
+    /// Covered area as seen from the side.
+    pub side: f64,
+    /// Mean share of the second colour, as seen from above.
+    pub part: f64,
+    /// Mean share of the sky's light that what is seen has, for both angles of the eye.
+    pub sky: [f64; 2],
+    /// Mean share of the sun's light, for both angles of the sun: seen from above, aslant from the side of the sun, and
+    /// aslant against it.
+    pub sun: [[f64; 2]; 3],
+}
+
+impl Cover {
+    /// The cover of a form's nearest level, and the light of the farthest, which the canopy takes over from; `seed`
+    /// already mixes the variant.
+    pub(crate) fn new(form: &Form, seed: u32) -> Self {
+        let [near, mesh] = super::extremes(form, seed);
+        let (top, side) = (sight::look_down(&near, 64), sight::look(&near));
+        let mut out = Self { top: top.cover.into(), side: side.cover.into(), part: top.part.into(), ..Self::default() };
+        for turn in 0..TURNS {
+            let azimuth = TURN * (f32::from(turn) + 0.35) / f32::from(TURNS);
+            let eyes = EYES_DEG.map(|from_zenith_deg| View::new(&mesh, direction(from_zenith_deg, azimuth)));
+            for (sky, eye) in out.sky.iter_mut().zip(&eyes) {
+                *sky += eye.mean(|hit| hit.light * (0.5 + 0.5 * hit.normal.z));
+            }
+            let opposite = azimuth + 0.5 * TURN;
+            let sides = [(&eyes[0], azimuth), (&eyes[1], azimuth), (&eyes[1], opposite)];
+            for (k, from_zenith_deg) in SUNS_DEG.into_iter().enumerate() {
+                let suns = [azimuth, opposite].map(|azimuth| View::new(&mesh, direction(from_zenith_deg, azimuth)));
+                for (sum, (eye, azimuth)) in out.sun.iter_mut().zip(sides) {
+                    let sun = &suns[usize::from(azimuth == opposite)];
+                    sum[k] += eye.mean(|hit| hit.sunlight(sun));
+                }
+            }
+        }
+        let share = 1.0 / f64::from(TURNS);
+        out.sky = out.sky.map(|sum| sum * share);
+        out.sun = out.sun.map(|sums| sums.map(|sum| sum * share));
+        out
+    }
+
+    /// The mean of several.
+    pub(crate) fn mean(covers: &[Self]) -> Self {
+        let of = |part: fn(&Self) -> f64| covers.iter().map(part).sum::<f64>() / covers.len().max(1) as f64;
+        let sky = [of(|c| c.sky[0]), of(|c| c.sky[1])];
+        let sun = [
+            [of(|c| c.sun[0][0]), of(|c| c.sun[0][1])],
+            [of(|c| c.sun[1][0]), of(|c| c.sun[1][1])],
+            [of(|c| c.sun[2][0]), of(|c| c.sun[2][1])],
+        ];
+        Self { top: of(|c| c.top), side: of(|c| c.side), part: of(|c| c.part), sky, sun }
+    }
+}
+
+/// Unit vector at an angle from the zenith and an azimuth.
+fn direction(from_zenith_deg: f32, azimuth: f32) -> Vec3 {
+    let tilt = around(from_zenith_deg.to_radians());
+    around(azimuth) * tilt.y + Vec3::Z * tilt.x
+}
+
+/// What a pixel shows of a mesh.
+struct Hit {
+    position: Vec3,
+    normal: Vec3,
+    part: f32,
+    light: f32,
+}
+
+impl Hit {
+    /// Share of the sunlight that is reflected to all sides, as in `life.wgsl`. `sun`: the mesh from the sun.
+    fn sunlight(&self, sun: &View<'_>) -> f32 {
+        if sun.hides(self.position + sun.to_eye * (OWN * self.part + BIAS)) {
+            return 0.0;
+        }
+        let (facing, soft) = (self.normal.dot(sun.to_eye), SOFT * self.part);
+        let front = ((facing + soft) / (1.0 + soft)).max(0.0) / (1.0 + 0.5 * soft);
+        let behind = TRANSLUCENT * self.part * (-facing).max(0.0);
+        (front + behind) * smooth(0.0, 0.75, self.light)
+    }
+}
+
+/// A mesh as it is seen from far away.
+struct View<'a> {
+    mesh: &'a Mesh,
+    to_eye: Vec3,
+    right: Vec3,
+    /// Pixels for a height.
+    scale: f32,
+    /// For each pixel, its depth, the triangle and the weights of its corners.
+    pixels: Vec<(f32, usize, [f32; 3])>,
+}
+
+impl<'a> View<'a> {
+    fn new(mesh: &'a Mesh, to_eye: Vec3) -> Self {
+        let reach = mesh.vertices.iter().fold(0.1_f32, |r, v| r.max((v.position - MIDDLE).length()));
+        let right = to_eye.any_orthonormal_vector();
+        let pixels = vec![(f32::MAX, 0, [0.0; 3]); SIDE * SIDE];
+        let mut view = Self { mesh, to_eye, right, scale: SIDE as f32 / (2.0 * reach), pixels };
+        for (number, triangle) in mesh.triangles.iter().enumerate() {
+            let corners = triangle.map(|i| view.place(mesh.vertices[i as usize].position));
+            sight::each_pixel(corners, [SIDE; 2], |at, depth, weights| {
+                if depth < view.pixels[at].0 {
+                    view.pixels[at] = (depth, number, weights);
+                }
+            });
+        }
+        view
+    }
+
+    /// Position in the picture: x and y in pixels, depth in heights.
+    fn place(&self, p: Vec3) -> Vec3 {
+        let rel = p - MIDDLE;
+        let flat = Vec2::new(rel.dot(self.right), rel.dot(self.to_eye.cross(self.right)));
+        (flat * self.scale + 0.5 * SIDE as f32).extend(-rel.dot(self.to_eye))
+    }
+
+    /// Whether something is in front of a point.
+    fn hides(&self, point: Vec3) -> bool {
+        let at = self.place(point);
+        let inside = |x: f32| (0.0..SIDE as f32).contains(&x);
+        inside(at.x) && inside(at.y) && self.pixels[at.y as usize * SIDE + at.x as usize].0 < at.z - BIAS
+    }
+
+    /// Mean over all that is seen above the ground.
+    fn mean(&self, value: impl Fn(&Hit) -> f32) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0_f64);
+        for &(_, triangle, weights) in self.pixels.iter().filter(|pixel| pixel.0 < f32::MAX) {
+            let corners = self.mesh.triangles[triangle].map(|i| &self.mesh.vertices[i as usize]);
+            let mut hit = Hit { position: Vec3::ZERO, normal: Vec3::ZERO, part: 0.0, light: 0.0 };
+            for (corner, weight) in corners.iter().zip(weights) {
+                hit.position += corner.position * weight;
+                hit.normal += corner.normal * weight;
+                hit.part += corner.part * weight;
+                hit.light += corner.light * weight;
+            }
+            if hit.position.z >= 0.0 {
+                hit.normal = hit.normal.normalize_or(Vec3::Z);
+                sum += f64::from(value(&hit));
+                count += 1.0;
+            }
+        }
+        sum / count.max(1.0)
+    }
+}
+
+/// Middle of the pictures.
+const MIDDLE: Vec3 = Vec3::new(0.0, 0.0, 0.5);

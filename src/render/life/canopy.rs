@@ -1,0 +1,76 @@
+//! Canopies of biomes in the table of their parameters: what is seen of a population from so far away that its objects
+//! are not drawn one by one. `canopy.wgsl` reads it.
+
+use super::view::populations;
+use crate::render::scene::Body;
+
+/// Most populations that count for the canopy of a biome: those that cover most.
+pub(crate) const LAYERS: usize = 4;
+/// Rows of a population, four numbers each.
+pub(crate) const LAYER_ROWS: usize = 7;
+/// Rows of a biome.
+pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
+/// Length in metres of which the period of the canopy's noise is a power of two: it divides the wrapped position.
+const FINEST_TILE_M: f64 = 0.25;
+const WIDEST_TILE_M: f64 = 1024.0;
+/// Periods of the noise are so many times the width of an object: its features are a quarter of a period wide.
+const WIDTHS_PER_TILE: f64 = 5.0;
+
+/// The canopy of a population.
+#[derive(Clone, Debug, PartialEq)]
+struct Layer {
+    biomes: String,
+    height_m: f64,
+    area: f64,
+    texels: [[f32; 4]; LAYER_ROWS],
+}
+
+/// The canopies of a planet.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct CanopyRows(Vec<Layer>);
+
+impl CanopyRows {
+    /// The canopies of a body's populations, as far as they are known.
+    pub(crate) fn new(body: &Body<'_>) -> Self {
+        let layers = body.surface.scenery.canopy(populations(body)).map(|(population, layer, reach_m)| {
+            let ([r, g, b], cover) = (layer.color, &layer.cover);
+            let tile_m = (WIDTHS_PER_TILE * layer.width_m).log2().round().exp2().clamp(FINEST_TILE_M, WIDEST_TILE_M);
+            let shore_m = if population.in_water { -1e6 } else { population.shore_m };
+            let texels = [
+                [r, g, b, layer.top],
+                [layer.side, cover.sky[0], cover.sky[1], reach_m],
+                [population.slope_from_deg, population.slope_to_deg, population.moisture_from, population.moisture_to],
+                [
+                    population.height_from_m,
+                    population.height_to_m,
+                    population.temperature_from_c,
+                    population.temperature_to_c,
+                ],
+                [tile_m, population.clumping, shore_m, layer.casting],
+                [cover.sun[0][0], cover.sun[0][1], layer.neighbours(), layer.height_m],
+                [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
+            ];
+            Layer {
+                biomes: population.biomes.clone(),
+                height_m: layer.height_m,
+                area: layer.top + layer.side,
+                texels: texels.map(|row| row.map(|number| number as f32)),
+            }
+        });
+        Self(layers.collect())
+    }
+
+    /// The populations of a biome that count, the highest first: their number and their rows.
+    pub(crate) fn of_biome(&self, key: char) -> (usize, [[f32; 4]; ROWS]) {
+        let stands = |layer: &&Layer| layer.biomes.is_empty() || layer.biomes.contains(key);
+        let mut layers: Vec<&Layer> = self.0.iter().filter(stands).collect();
+        layers.sort_by(|a, b| b.area.total_cmp(&a.area));
+        layers.truncate(LAYERS);
+        layers.sort_by(|a, b| b.height_m.total_cmp(&a.height_m));
+        let mut rows = [[0.0; 4]; ROWS];
+        for (to, from) in rows.iter_mut().zip(layers.iter().flat_map(|layer| layer.texels)) {
+            *to = from;
+        }
+        (layers.len(), rows)
+    }
+}
