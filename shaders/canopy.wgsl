@@ -66,15 +66,22 @@ fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
         * between(place.above_m, climate.x, climate.y, 15.0) * between(place.temperature_c, climate.z, climate.w, 2.0);
 }
 
+// How much darker the creases between crowns are than their tops: a factor from 1 - CREASES to 1 + CREASES.
+const CREASES: f32 = 0.65;
+
 // Crowns at a pixel, mean 0, about -1 to 1: the height of their tops (x) and the rise from here towards the sun (y).
 fn crown_noise(tile_m: f32, place: CanopyPlace) -> vec2f {
     let lod = log2(max(place.footprint_m, 1e-4) * NOISE_TILE_SIDE / tile_m);
     let share = 1.0 - smoothstep(3.0, 5.5, lod);
     if share <= 0.0 { return vec2f(0.0); }
-    let at = ((body.eye_wrap_far_m + place.rel_m) / tile_m).yzx;
-    let height = textureSampleLevel(noise_tile, repeated, at, max(lod, 0.0)).r;
-    let aside = textureSampleLevel(noise_tile, repeated, at + 0.05 * place.sun_along.yzx, max(lod, 0.0)).r;
-    return share * vec2f(2.0 * height - 1.0, aside - height);
+    let at = (body.eye_wrap_far_m + place.rel_m).yzx;
+    let fine = at / tile_m;
+    let height = textureSampleLevel(noise_tile, repeated, fine, max(lod, 0.0)).r;
+    let aside = textureSampleLevel(noise_tile, repeated, fine + 0.05 * place.sun_along.yzx, max(lod, 0.0)).r;
+    // Two periods without a common measure: no repetition shows. Both divide the wrapped position.
+    let coarse = at / (WRAP_FAR_M / round(WRAP_FAR_M / (2.73 * tile_m)));
+    let groups = textureSampleLevel(noise_tile, repeated, coarse.zxy, max(lod - 1.45, 0.0)).r;
+    return share * vec2f(1.3 * height + 0.7 * groups - 1.0, aside - height);
 }
 
 // Adds the layers of a biome, the highest first.
@@ -83,7 +90,7 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
     var end = select(0, (*canopy).ends.x, number == 1);
     if count > 0 {
         let noise = crown_noise(biome_param(id, CANOPY_ROW + 4).x, place);
-        if number == 0 { (*canopy).relief = clamp(1.0 - 3.0 * noise.y, 0.4, 1.6); }
+        if number == 0 { (*canopy).relief = max((1.0 + CREASES * noise.x) * (1.0 - 2.0 * noise.y), 0.1); }
         var open = 1.0;
         for (var i = 0; i < count; i++) {
             let row = CANOPY_ROW + i * CANOPY_LAYER_ROWS;
@@ -166,6 +173,12 @@ fn object_light(at: vec2<i32>, rays: CanopyRays) -> vec2f {
     return vec2f(mix(mix(above.x, above.y, low), from_side, aside), mix(sky.x, sky.y, aside));
 }
 
+// Light that the tops of crowns have more than all that is seen of a crown that stands alone: from above, aslant from the
+// side of the sun, and aslant against it.
+const TOPS_BELOW: f32 = 0.08;
+const TOPS_ASLANT: f32 = 0.35;
+const TOPS_AGAINST: f32 = 1.0;
+
 // Areas of the objects that overtop a layer: those of its own height do not.
 fn higher_areas(canopy: Canopy, number: i32) -> vec2f {
     var sum = vec2f(0.0);
@@ -188,7 +201,8 @@ fn canopy_radiance(canopy: Canopy, sunlight: vec3f, sky: vec3f, sun_cosine: f32,
         let open = mix(1.0, exp(-above.x), 1.0 - UNDER_CROWNS);
         // Of crowns that close, one sees the tops, which have more light.
         let closed = layer.casts * (1.0 - exp(-layer.areas.x));
-        let light = object_light(layer.at, rays) * (1.0 + closed * mix(0.08, 0.3, saturate1(rays.eye_deg / 60.0)));
+        let more = mix(TOPS_BELOW, mix(TOPS_ASLANT, TOPS_AGAINST, rays.against), saturate1(rays.eye_deg / 60.0));
+        let light = object_light(layer.at, rays) * (1.0 + closed * more);
         sum += layer.seen * layer.albedo * (sunlight * (sun * canopy.relief * light.x) + sky * (open * light.y));
     }
     return sum / PI;

@@ -187,7 +187,12 @@ fn the_canopy_from_afar_has_the_colour_and_the_light_of_its_objects() {
         let altitude_m = (12.0 * population.height_m).max(8.0);
         for pitch_deg in [-90.0, -35.0] {
             let view = view(&planet, altitude_m, pitch_deg);
-            for (shown, away_deg) in [(DebugView::Albedo, 0.0), (DebugView::Shaded, 20.0), (DebugView::Shaded, 65.0), (DebugView::Shaded, -45.0)] {
+            for (shown, away_deg) in [
+                (DebugView::Albedo, 0.0),
+                (DebugView::Shaded, 20.0),
+                (DebugView::Shaded, 65.0),
+                (DebugView::Shaded, -45.0),
+            ] {
                 let [near, far] = near_and_far(&planet, view, away_deg, shown);
                 let off: [f64; 3] = std::array::from_fn(|c| far[c] / near[c]);
                 println!("{name} {pitch_deg} {away_deg} {shown:?}: {near:.3?} {far:.3?} {off:.2?}");

@@ -67,11 +67,13 @@ pub(super) fn populations(kind: Kind, biomes: &Biomes, dice: &mut Dice) -> Vec<P
     found
 }
 
-/// The leaves over ground of a colour: as bright as those of the ready population, in the ground's hue.
+/// The leaves over ground of a colour: in its hue, and brighter, because they shade one another; about as bright as those
+/// of the ready population.
 fn leaves(ground: Option<[f64; 3]>, ready: [f64; 3]) -> [f64; 3] {
     let Some(ground) = ground else { return ready };
     let sum = |color: [f64; 3]| color.iter().sum::<f64>().max(1e-3);
-    ground.map(|part| three_digits((part * sum(ready) / sum(ground)).min(1.0)))
+    let brightness = (1.5 * sum(ground)).clamp(0.7 * sum(ready), 2.5 * sum(ready));
+    ground.map(|part| three_digits((part * brightness / sum(ground)).min(1.0)))
 }
 
 /// The colour of stones: that of the rock that all biomes share.

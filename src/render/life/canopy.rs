@@ -14,7 +14,7 @@ pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
 const FINEST_TILE_M: f64 = 0.25;
 const WIDEST_TILE_M: f64 = 1024.0;
 /// Periods of the noise are so many times the width of an object: its features are a quarter of a period wide.
-const WIDTHS_PER_TILE: f64 = 5.0;
+const WIDTHS_PER_TILE: f64 = 3.0;
 
 /// The canopy of a population.
 #[derive(Clone, Debug, PartialEq)]

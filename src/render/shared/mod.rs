@@ -11,7 +11,7 @@ pub(crate) use constants::*;
 pub use constants::{MAX_POINTS, MAX_SUNS};
 pub(crate) use structs::*;
 
-use super::biome_table::{CANOPY, ROCK, RULES};
+use super::biome_table::{CANOPY, ROCK, RULES, WRAP_FAR_M};
 use super::life::{CANOPY_LAYER_ROWS, CANOPY_LAYERS};
 use super::material_maps::{PATTERN_ROUGHNESS, PATTERN_STEEPEST};
 use super::scene::DebugView;
@@ -82,6 +82,7 @@ pub(crate) fn text() -> String {
         ("BIOME_ROCK", &(ROCK as i32)),
         ("BIOME_RULES", &(RULES as i32)),
         ("MIXTURE_ENTRIES", &MIXTURE_ENTRIES),
+        ("WRAP_FAR_M", &WRAP_FAR_M),
         ("CANOPY_ROW", &(CANOPY as i32)),
         ("CANOPY_LAYERS", &(CANOPY_LAYERS as i32)),
         ("CANOPY_LAYER_ROWS", &(CANOPY_LAYER_ROWS as i32)),
