@@ -5,6 +5,7 @@ use super::points::Points;
 use super::work::WorkArgs;
 use super::{Failure, args, load, maps, print};
 use crate::clouds::{CloudCover, CloudField};
+use crate::life::{Canopies, Canopy};
 use crate::sea::{Column, WaterSurface, Waves};
 use crate::sphere::LatLon;
 use crate::sphere::geo::east_north;
@@ -48,9 +49,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::seconds)]
     time: f64,
     /// Print a JSON object: height_m, slope_deg, normal, temperature_c, precipitation_mm (a year), temperature and
-    /// moisture (0 to 1, the axes of the biome table), biome, layers, water_level_m, water_surface_m (of the sea, with
-    /// its waves), wave_height_m (significant), river, lake, basin, wind_m_s (to the east and to the north), rain_mm (a
-    /// year), plate, cloud_cover, middle_cover, veil_cover and fog_cover (0 to 1)
+    /// moisture (0 to 1, the axes of the biome table), biome, canopy_cover (0 to 1), canopy_height_m, populations (objects
+    /// per_hectare), layers, water_level_m, water_surface_m (of the sea, with its waves), wave_height_m (significant),
+    /// river, lake, basin, wind_m_s (to the east and to the north), rain_mm (a year), plate, cloud_cover, middle_cover,
+    /// veil_cover and fog_cover (0 to 1)
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -85,19 +87,28 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     print(&answer)
 }
 
-/// What changes with time: clouds and waves.
+/// What is over the ground: clouds and waves at a time, and objects.
 pub(super) struct Moment {
     time_secs: f64,
+    canopies: Canopies,
     clouds: Option<CloudField>,
 }
 
 impl Moment {
     fn new(terrain: &Terrain, time_secs: f64) -> Self {
-        Self { time_secs, clouds: terrain.planet().clouds.as_ref().map(|_| CloudField::new(terrain)) }
+        let canopies = Canopies::new(terrain.planet());
+        Self { time_secs, canopies, clouds: terrain.planet().clouds.as_ref().map(|_| CloudField::new(terrain)) }
     }
 
     fn cover(&self, dir: DVec3) -> Option<CloudCover> {
         self.clouds.as_ref().map(|field| field.cover(dir, self.time_secs))
+    }
+
+    /// Objects on a hectare, for each population that stands there.
+    fn populations<'a>(&self, terrain: &'a Terrain, sample: &Sample) -> Vec<(&'a str, f64)> {
+        let densities = self.canopies.densities_per_hectare(sample);
+        let named = terrain.planet().life.iter().map(|population| population.name.as_str()).zip(densities);
+        named.filter(|(_, per_hectare)| *per_hectare > 0.0).collect()
     }
 
     /// The surface of the sea, where the sample is of the sea, and the significant wave height.
@@ -121,6 +132,8 @@ pub(super) fn everything(terrain: &Terrain, dir: DVec3, time_secs: f64) -> Value
 /// All that is known of a point.
 pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], moment: &Moment) -> Value {
     let clouds = moment.cover(dir);
+    let canopy = moment.canopies.at(sample);
+    let populations = moment.populations(terrain, sample).into_iter();
     let sea = moment.sea(terrain, dir, sample);
     let river = sample.river.map(|river| {
         json!({
@@ -144,6 +157,9 @@ pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: 
         "precipitation_mm": sample.precipitation_mm,
         "moisture": sample.moisture,
         "biome": biome_name(terrain, sample),
+        "canopy_cover": canopy.cover,
+        "canopy_height_m": canopy.height_m,
+        "populations": populations.map(|(name, n)| json!({ "name": name, "per_hectare": n })).collect::<Vec<_>>(),
         "layers": layers.map(|(layer, m)| json!({ "name": layer.name, "height_m": m })).collect::<Vec<_>>(),
         "water_level_m": sample.water_level_m,
         "water_surface_m": sea.map(|(surface, _)| surface.height_m),
@@ -186,6 +202,14 @@ fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], mom
         format!("moisture     {:.3} ({:.0} mm a year)", sample.moisture, sample.precipitation_mm),
         format!("biome        {}", biome_name(terrain, sample)),
     ];
+    let populations = moment.populations(terrain, sample);
+    if !populations.is_empty() {
+        let Canopy { cover, height_m, .. } = moment.canopies.at(sample);
+        let named = populations.iter().map(|(name, per_hectare)| format!("{name} {per_hectare:.0}"));
+        let named = named.collect::<Vec<_>>().join(", ");
+        lines.push(format!("canopy       {:.0}% of the ground, {height_m:.1} m high", 100.0 * cover));
+        lines.push(format!("per hectare  {named}"));
+    }
     lines.extend(sample.water_level_m.map(|level_m| {
         let lake = sample.lake.map_or(String::new(), |lake| format!(", lake {lake}"));
         format!("water        {level_m:.3} m ({:.3} m deep{lake})", level_m - sample.height_m)

@@ -16,8 +16,8 @@ use tellus::sphere::{LatLon, Tangent};
 /// A planet that has every map; its rivers are solved in a moment.
 fn rills(folder: &Path) -> PathBuf {
     let path = folder.join("rills.ron");
-    let text =
-        "(version: 3, name: \"Rills\", structure: (grids: 1), water: (level_m: 0), clouds: (), settlements: 1.0)";
+    let text = "(version: 3, name: \"Rills\", structure: (grids: 1), water: (level_m: 0), clouds: (), settlements: 1.0, \
+         life: [(per_hectare: 20000.0, height_m: 0.5, color: (0.2, 0.5, 0.1), leaf_color: (0.2, 0.5, 0.1))])";
     fs::write(&path, text).unwrap();
     path
 }
@@ -73,10 +73,13 @@ fn wanted(map: &str, answer: &Value, planet: &Planet, place: (f64, f64)) -> Vec<
             let channel = |k: usize| {
                 let ground = biome.color[k] * (1.0 - biome.patches) + biome.patch_color[k] * biome.patches;
                 let seen = (-2.0 * depth_m.max(0.0) * water.absorption_per_m[k]).exp();
-                water.color[k] * (1.0 - seen) + ground * seen
+                let below = water.color[k] * (1.0 - seen) + ground * seen;
+                below + (planet.life[0].color[k] - below) * answer["canopy_cover"].as_f64().unwrap()
             };
             (0..3).map(channel).collect()
         }
+        "canopy" => vec![answer["canopy_cover"].as_f64().unwrap()],
+        "canopy_height" => vec![answer["canopy_height_m"].as_f64().unwrap()],
         "discharge" => vec![river["discharge_m3_s"].as_f64().unwrap_or(0.0)],
         "flow" if river.is_null() => vec![0.0; 3],
         "flow" => {

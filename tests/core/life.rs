@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 use std::sync::Arc;
-use tellus::life::Instance;
+use tellus::life::{Canopies, Canopy, Instance};
 use tellus::planet::{Biome, Layer, Planet, Population, Shape, Table, Water};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
@@ -129,4 +129,35 @@ fn the_list_of_a_place_is_pinned() {
             .fold(hash, |hash, bits| (hash ^ bits).wrapping_mul(0x0100_0000_01b3).rotate_left(7))
     });
     assert_eq!((found.len(), hash), (11_873, 16_820_276_421_146_807_046));
+}
+
+#[test]
+fn canopies_have_the_densities_of_objects_and_none_in_the_sea() {
+    let terrain = terrain(vec![trees(), Population { enabled: false, ..trees() }]);
+    let canopies = Canopies::new(terrain.planet());
+    let middle = LatLon::from_degrees(20.0, 30.0).direction();
+    let (east, north) = middle.any_orthonormal_pair();
+    let radius_m = 1500.0;
+    let spot = |x: i32, y: i32| [x, y].map(|at| (f64::from(at) + 0.5) / 40.0);
+    let spots = (-40..40).flat_map(|x| (-40..40).map(move |y| spot(x, y)));
+    let inside: Vec<_> = spots.filter(|[x, y]| x.hypot(*y) < 1.0).collect();
+    let (mut density, mut in_sea) = (0.0, 0);
+    for [x, y] in &inside {
+        let sample = terrain.sample((middle + (east * *x + north * *y) * (radius_m / 600_000.0)).normalize());
+        let (densities, canopy) = (canopies.densities_per_hectare(&sample), canopies.at(&sample));
+        assert_eq!(densities[1], 0.0);
+        assert!((0.0..1.0).contains(&canopy.cover) && (canopy.cover > 0.0) == (densities[0] > 0.0));
+        if sample.height_m < 0.5 {
+            in_sea += 1;
+            assert_eq!(canopy, Canopy::default());
+            assert_eq!(canopies.albedo(&sample, [0.5, 0.4, 0.3]), [0.5, 0.4, 0.3]);
+        } else {
+            assert!((5.0..15.0).contains(&canopy.height_m) || canopy.cover == 0.0, "{canopy:?}");
+        }
+        density += densities[0] / inside.len() as f64;
+    }
+    assert!(in_sea > 100 && in_sea < inside.len() - 100, "{in_sea} of {}", inside.len());
+    let counted = around(&terrain, 20.0, 30.0, radius_m).len() as f64;
+    let wanted = density * std::f64::consts::PI * radius_m * radius_m / 10_000.0;
+    assert!((counted / wanted - 1.0).abs() < 0.03, "{counted} objects, not {wanted}");
 }

@@ -179,24 +179,53 @@ fn near_and_far(planet: &Arc<Planet>, view: View, away_deg: f64, shown: DebugVie
     [near, look(&surface)]
 }
 
+/// The greatest factor by which a channel differs.
+fn factor(near: [f64; 3], far: [f64; 3]) -> f64 {
+    (0..3).map(|c| (far[c] / near[c]).max(near[c] / far[c])).fold(1.0, f64::max)
+}
+
 #[test]
 fn the_canopy_from_afar_has_the_colour_and_the_light_of_its_objects() {
-    for name in ["Broadleaf tree", "Conifer", "Shrub", "Grass", "Boulder"] {
+    // Name of the population, and the greatest factors of colour and of light.
+    for (name, most_color, most_light) in [
+        ("Broadleaf tree", 1.06, 1.3),
+        ("Conifer", 1.12, 1.7),
+        ("Shrub", 1.03, 1.06),
+        ("Grass", 1.06, 1.15),
+        ("Boulder", 1.03, 1.06),
+    ] {
         let planet = covered_by(name);
-        let population = &planet.life[0];
-        let altitude_m = (12.0 * population.height_m).max(8.0);
         for pitch_deg in [-90.0, -35.0] {
-            let view = view(&planet, altitude_m, pitch_deg);
-            for (shown, away_deg) in [
-                (DebugView::Albedo, 0.0),
-                (DebugView::Shaded, 20.0),
-                (DebugView::Shaded, 65.0),
-                (DebugView::Shaded, -45.0),
-            ] {
-                let [near, far] = near_and_far(&planet, view, away_deg, shown);
-                let off: [f64; 3] = std::array::from_fn(|c| far[c] / near[c]);
-                println!("{name} {pitch_deg} {away_deg} {shown:?}: {near:.3?} {far:.3?} {off:.2?}");
+            let view = view(&planet, (12.0 * planet.life[0].height_m).max(8.0), pitch_deg);
+            let [near, far] = near_and_far(&planet, view, 0.0, DebugView::Albedo);
+            assert!(factor(near, far) < most_color, "{name}, pitch {pitch_deg}: albedo {near:.3?}, canopy {far:.3?}");
+            for away_deg in [20.0, 65.0, -45.0] {
+                let [near, far] = near_and_far(&planet, view, away_deg, DebugView::Shaded);
+                let off = factor(near, far);
+                println!("{name}, pitch {pitch_deg}, sun {away_deg}: {near:.4?} {far:.4?} {off:.2}");
+                assert!(off < most_light, "{name}, pitch {pitch_deg}, sun {away_deg}: {near:.4?}, canopy {far:.4?}");
             }
         }
     }
+}
+
+#[test]
+fn the_ground_beneath_a_canopy_is_in_its_shade() {
+    // Trees over grey ground.
+    let ready = ReadyPopulation::named("Broadleaf tree").unwrap();
+    let mut planet = (*covered_by("Broadleaf tree")).clone();
+    let view = view(&Arc::new(planet.clone()), 20_000.0, -90.0);
+    let light = |planet: &Planet| {
+        let planet = Arc::new(planet.clone());
+        mean(&radiance(&surface_of(&planet, &view), &planet, view, 30.0))[1]
+    };
+    planet.life.clear();
+    let bare = light(&planet);
+    let all = Population::default();
+    let (cold, dry) = (all.temperature_from_c, all.moisture_from);
+    planet.life = vec![Population { temperature_from_c: cold, moisture_from: dry, per_hectare: 40.0, ..ready }];
+    let open = light(&planet);
+    planet.life[0].per_hectare = 400.0;
+    let closed = light(&planet);
+    assert!(closed < 0.7 * open && open < 0.7 * bare, "{bare} {open} {closed}");
 }

@@ -167,8 +167,12 @@ fn white_is_white_and_the_open_sea_is_dark() {
         assert!(white.iter().all(|c| *c >= whitest), "{file}: the brightest pixels are {white:?}");
         let spread = white.iter().max().unwrap() - white.iter().min().unwrap();
         assert!(spread <= 10, "{file}: white has a tint: {white:?}");
-        // Blue pixels of the sea, without the twilight at the terminator.
-        let sea: Vec<_> = pixels.iter().filter(|p| u32::from(p[2]) > 2 * u32::from(p[0]) && p[2] > 40).collect();
+        // Blue pixels of the sea, without the twilight at the terminator and forests behind haze.
+        let is_sea = |p: &&[u8; 3]| {
+            let [red, green, blue] = p.map(u32::from);
+            blue > 2 * red && 2 * blue > 3 * green && blue > 40
+        };
+        let sea: Vec<_> = pixels.iter().filter(is_sea).collect();
         // The median of each channel: neighbours in brightness differ in colour.
         let sea: [u8; 3] = std::array::from_fn(|channel| {
             let mut codes: Vec<u8> = sea.iter().map(|pixel| pixel[channel]).collect();
