@@ -59,12 +59,6 @@ impl CanopyLayer {
         }
     }
 
-    /// Area of neighbours that shade an object, by the tangent of the sun's angle from the zenith: crowns of one height
-    /// shade one another from the side only, and the less the more they close.
-    pub(crate) fn neighbours(&self) -> f64 {
-        self.casting * self.side * (-0.5 * self.top).exp()
-    }
-
     /// Share of the ground that the objects cover as seen from above, at a share of their density.
     pub(crate) fn covered(&self, share: f64) -> f64 {
         1.0 - libm::exp(-self.top * share)

@@ -1,6 +1,6 @@
 //! Scenery: the objects that a view draws, cell by cell, and those of earlier views that serve it.
 
-use super::canopy::{self, CanopyLayer};
+use super::canopy;
 use super::form::Cover;
 use super::grid::angle;
 use super::model::Model;
@@ -242,26 +242,6 @@ impl SceneryCache {
 }
 
 impl Scenery {
-    /// What populations cover, each with its reach in metres, as far as it is known. `populations`: those of the
-    /// planet, or of a newer one with as many.
-    pub(crate) fn canopy<'a>(
-        &'a self,
-        populations: &'a [Population],
-    ) -> impl Iterator<Item = (&'a Population, CanopyLayer, f64)> {
-        let known = populations.iter().zip(&self.covers).zip(&self.reach_m);
-        known.filter(|((population, _), _)| population.enabled).filter_map(|((population, cover), reach_m)| {
-            Some((population, CanopyLayer::new(population, cover.as_ref()?), *reach_m))
-        })
-    }
-
-    /// For each population, the area of neighbours that shade an object; see [`CanopyLayer::neighbours`].
-    pub(crate) fn neighbours(&self, populations: &[Population]) -> Vec<f32> {
-        let area = |(population, cover): (&Population, &Option<Cover>)| {
-            cover.as_ref().map_or(0.0, |cover| CanopyLayer::new(population, cover).neighbours() as f32)
-        };
-        populations.iter().zip(&self.covers).map(area).collect()
-    }
-
     /// Objects in all cells.
     pub fn object_count(&self) -> usize {
         self.cells.iter().map(|cell| cell.objects.len()).sum()

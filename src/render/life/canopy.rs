@@ -2,6 +2,9 @@
 //! are not drawn one by one. `canopy.wgsl` reads it.
 
 use super::view::populations;
+use crate::life::Scenery;
+use crate::life::canopy::CanopyLayer;
+use crate::planet::Population;
 use crate::render::scene::Body;
 
 /// Most populations that count for the canopy of a biome: those that cover most.
@@ -32,7 +35,10 @@ pub(crate) struct CanopyRows(Vec<Layer>);
 impl CanopyRows {
     /// The canopies of a body's populations, as far as they are known.
     pub(crate) fn new(body: &Body<'_>) -> Self {
-        let layers = body.surface.scenery.canopy(populations(body)).map(|(population, layer, reach_m)| {
+        let scenery = &body.surface.scenery;
+        let layers = layers(scenery, populations(body)).zip(&scenery.reach_m);
+        let layers = layers.filter_map(|((population, layer), reach_m)| Some((population, layer?, *reach_m)));
+        let layers = layers.map(|(population, layer, reach_m)| {
             let ([r, g, b], cover) = (layer.color, &layer.cover);
             let tile_m = (WIDTHS_PER_TILE * layer.width_m).log2().round().exp2().clamp(FINEST_TILE_M, WIDEST_TILE_M);
             let shore_m = if population.in_water { -1e6 } else { population.shore_m };
@@ -47,7 +53,7 @@ impl CanopyRows {
                     population.temperature_to_c,
                 ],
                 [tile_m, population.clumping, shore_m, layer.casting],
-                [cover.sun[0][0], cover.sun[0][1], layer.neighbours(), layer.height_m],
+                [cover.sun[0][0], cover.sun[0][1], shading(&layer), layer.height_m],
                 [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
             ];
             Layer {
@@ -73,4 +79,28 @@ impl CanopyRows {
         }
         (layers.len(), rows)
     }
+}
+
+/// For each population, what it covers, if that is known and the population is on. `populations`: those of the scenery's
+/// planet, or of a newer one with as many.
+fn layers<'a>(
+    scenery: &'a Scenery,
+    populations: &'a [Population],
+) -> impl Iterator<Item = (&'a Population, Option<CanopyLayer>)> {
+    populations.iter().zip(&scenery.covers).map(|(population, cover)| {
+        let known = cover.as_ref().filter(|_| population.enabled);
+        (population, known.map(|cover| CanopyLayer::new(population, cover)))
+    })
+}
+
+/// Area of neighbours that shade an object of a population, by the tangent of the sun's angle from the zenith
+/// (`neighbours.wgsl`): crowns of one height shade one another from the side only, and the less the more they close.
+fn shading(layer: &CanopyLayer) -> f64 {
+    layer.casting * layer.side * (-0.5 * layer.top).exp()
+}
+
+/// For each population, the area of neighbours that shade one of its objects.
+pub(super) fn neighbours(scenery: &Scenery, populations: &[Population]) -> Vec<f32> {
+    let area = |(_, layer): (&Population, Option<CanopyLayer>)| layer.map_or(0.0, |layer| shading(&layer) as f32);
+    layers(scenery, populations).map(area).collect()
 }

@@ -1,7 +1,7 @@
 //! The objects that a view draws: culled, thinned out by distance, each at the level of detail that its size in the
 //! picture needs.
 
-use super::{CASCADES, Cascades, LifeModels};
+use super::{CASCADES, Cascades, LifeModels, canopy};
 use crate::life::form::LEVELS;
 use crate::life::scenery::{SceneryCell, SceneryObject, share_at};
 use crate::lod::horizon::HorizonTile;
@@ -102,7 +102,7 @@ impl LifeView {
         let lowest_m = body.surface.terrain.planet().radius_m() + height_range_m(body.surface).0;
         let culling = Culling::new(chosen, lowest_m.max(0.0));
         let (horizons, populations) = (Horizons::new(body), populations(body));
-        let neighbours = scenery.neighbours(populations);
+        let neighbours = canopy::neighbours(scenery, populations);
         let drawn = Drawn::new(view, cascades);
         let mut seen = Bins::new(scenery.models.len());
         let mut casting: [Bins; CASCADES] = std::array::from_fn(|_| Bins::new(scenery.models.len()));
@@ -254,7 +254,7 @@ struct Look<'a> {
     population: &'a Population,
     shade: Option<Shade>,
     axis: u16,
-    /// See [`CanopyLayer::neighbours`](crate::life::canopy::CanopyLayer::neighbours).
+    /// Area of neighbours that shade an object; see [`canopy::neighbours`].
     neighbours: f32,
 }
 
