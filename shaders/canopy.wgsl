@@ -115,7 +115,7 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
     (*canopy).shares[number] = share;
 }
 
-// The canopy of a pixel. `ids`, `shares`: biomes and their shares. `v`: direction to the eye, `n`: normal of the ground.
+// Canopy of a pixel. `ids`, `shares`: biomes and their shares. `v`: direction to the eye, `n`: normal of the ground.
 fn canopy_at(ids: vec2<i32>, shares: vec2f, n: vec3f, v: vec3f, place: CanopyPlace) -> Canopy {
     var out: Canopy;
     out.floor = 1.0;
@@ -161,8 +161,8 @@ fn canopy_rays(up: vec3f, sun: vec3f, v: vec3f) -> CanopyRays {
     return CanopyRays(angles.x, angles.y, 0.5 - 0.5 * dot(flat_sun, flat_eye) / scale, dot(sun, v));
 }
 
-// Mean light of what is seen of an object: share of the sun's (x) and of the sky's (y), between the directions that were
-// measured (src/life/form/cover.rs).
+// Mean light of what is seen of an object: share of the sun's (x) and of the sky's (y), between the directions that
+// were measured (src/life/form/cover.rs).
 fn object_light(at: vec2<i32>, rays: CanopyRays) -> vec2f {
     let above = biome_param(at.x, at.y + 5).xy;
     let aslant = biome_param(at.x, at.y + 6);
@@ -173,8 +173,8 @@ fn object_light(at: vec2<i32>, rays: CanopyRays) -> vec2f {
     return vec2f(mix(mix(above.x, above.y, low), from_side, aside), mix(sky.x, sky.y, aside));
 }
 
-// Light that the tops of crowns have more than all that is seen of a crown that stands alone: from above, aslant from the
-// side of the sun, and aslant against it.
+// Light that the tops of crowns have more than all that is seen of a crown that stands alone: from above, aslant from
+// the side of the sun, and aslant against it.
 const TOPS_BELOW: f32 = 0.08;
 const TOPS_ASLANT: f32 = 0.35;
 const TOPS_AGAINST: f32 = 1.0;

@@ -1,4 +1,4 @@
-//! Conifers: a straight trunk with whorls of branches, each a feather of needle twigs.
+//! Conifers: a straight trunk with whorls of branches, each a flat spray of narrow blades like a comb.
 
 use super::build::{Detail, Look, Mesh};
 use super::leaf::{self, Leaf};
@@ -8,7 +8,7 @@ use super::tube::{self, Knot};
 use crate::planet::life::Conifer;
 use glam::Vec3;
 
-/// Branch of a whorl.
+/// Branch of a whorl or between two.
 #[derive(Clone, Copy, Debug)]
 struct Branch {
     foot: Vec3,
@@ -19,6 +19,10 @@ struct Branch {
     lift: f32,
     /// Share of the crown's height.
     high: f32,
+    /// Length of the twigs that hang below.
+    hang: f32,
+    /// Branch between two whorls.
+    short: bool,
 }
 
 impl Branch {
@@ -45,20 +49,25 @@ fn branches(form: &Conifer, seed: u32) -> Vec<Branch> {
     let mut random = Random::new(seed, 1);
     let (wild, droop) = (form.irregular as f32, form.droop as f32);
     let (foot, radius) = (form.trunk as f32, form.crown_width as f32 * 0.5);
-    let height = 0.985 - foot;
+    let height = 0.955 - foot;
+    let hang = (0.75 * height / form.whorls.max(1) as f32).clamp(0.02, 0.06);
     let mut out = Vec::new();
     let gap = random.range(0.0, TURN);
-    for w in 0..form.whorls {
-        let level = (w as f32 + 0.3 + random.signed() * 0.3 * wild) / form.whorls as f32;
+    // Between two whorls grow a few short branches.
+    for w in 0..2 * form.whorls {
+        let (whorl, short) = (w / 2, w % 2 == 1);
+        let shift = if short { 0.8 } else { 0.3 };
+        let level = (whorl as f32 + shift + random.signed() * 0.3 * wild) / form.whorls as f32;
         let h = pow(level.clamp(0.0, 1.0), 0.92);
-        let count = if h > 0.85 { 5 } else { 7 };
+        let count = if short { 4 } else { 7 - 2 * usize::from(h > 0.85) };
         let turn = gap + w as f32 * GOLDEN;
         for b in 0..count {
             let angle = turn + TURN * b as f32 / count as f32 + random.signed() * (0.2 + 0.4 * wild);
             let length = radius * profile(form, h) * (1.0 + random.signed() * (0.12 + 0.4 * wild));
+            let length = (length * if short { 0.6 } else { 1.0 }).max(0.022);
             let rise = smooth(0.55, 1.0, h) * 0.9;
             let steep = (-droop * 0.95 + rise) * (1.0 + random.signed() * 0.2) + random.signed() * 0.12 * wild;
-            let z = foot + height * h + random.signed() * 0.012 * (1.0 + 2.0 * wild);
+            let z = foot + height * h + random.signed() * 0.007 * (1.0 + 2.0 * wild);
             if random.unit() < 0.3 * wild * wild {
                 continue;
             }
@@ -66,7 +75,9 @@ fn branches(form: &Conifer, seed: u32) -> Vec<Branch> {
             let out_way = around(angle);
             // A hanging branch starts so high that its tip stays above the ground.
             let z = z.max(0.04 + length * (-steep - lift).max(0.0) * 0.8);
-            out.push(Branch { foot: Vec3::Z * z, out: out_way, length: length.max(0.02), slope: steep, lift, high: h });
+            let hang = hang.min(0.8 * length);
+            let foot = Vec3::Z * z;
+            out.push(Branch { foot, out: out_way, length, slope: steep, lift, high: h, hang, short });
         }
     }
     out
@@ -77,39 +88,50 @@ pub(super) fn build(form: &Conifer, detail: &Detail) -> Mesh {
     let mut mesh = Mesh::default();
     trunk(&mut mesh, form, detail);
     if detail.level == 3 {
-        cones(&mut mesh, form, detail, 4, 1.0);
+        cones(&mut mesh, form, detail, 4, [1.0, 0.7]);
         return mesh;
     }
-    let all = branches(form, detail.seed);
-    if detail.level == 2 {
-        cones(&mut mesh, form, detail, 11, 0.85);
+    let used = chosen(branches(form, detail.seed), detail);
+    match detail.level {
+        1 => cones(&mut mesh, form, detail, 1, [0.13, 0.3]),
+        2 => cones(&mut mesh, form, detail, 6, [0.46, 0.38]),
+        _ => {}
     }
-    let most = detail.pick([200, 130, 21, 0]);
-    let used: Vec<Branch> = if all.len() <= most {
-        all
-    } else {
-        {
-            // A random step keeps the branches that stay from gathering on one side.
-            let step = all.len() / most;
-            let jump = |i: usize| super::random::hash(i as u32 ^ detail.seed) as usize % step.max(1);
-            (0..most).map(|i| all[(i * all.len() / most + jump(i)).min(all.len() - 1)]).collect()
-        }
-    };
-    let room = detail.pick([6800, 640, 64, 0]);
-    let each = (room / used.len().max(1)).clamp(2, 72);
-    let needles = mix(0.55, 1.0, form.needles as f32);
-    let each = if detail.level == 0 { (each as f32 * needles) as usize } else { each };
+    let needles = mix(0.5, 1.0, form.needles as f32);
+    let room = detail.pick([8600.0 * needles, 598.0, 106.0, 0.0]);
+    // Long branches get more needles than short ones.
+    let share = |branch: &Branch| 0.2 * form.crown_width as f32 + branch.length;
+    let whole: f32 = used.iter().map(share).sum();
+    let least = detail.pick([4, 1, 1, 0]);
+    let spare = (room - (least * used.len()) as f32).max(0.0);
+    let mut owed = 0.0;
     for (i, branch) in used.iter().enumerate() {
         let mut random = Random::new(detail.seed, 100 + i as u32);
-        feather(&mut mesh, branch, detail, each, needles, &mut random);
+        owed += spare * share(branch) / whole.max(1e-6);
+        let more = owed as usize;
+        owed -= more as f32;
+        feather(&mut mesh, branch, detail, least + more, needles, &mut random);
     }
     leader(&mut mesh, detail);
     mesh
 }
 
+/// Branches that a level draws.
+fn chosen(mut all: Vec<Branch>, detail: &Detail) -> Vec<Branch> {
+    all.retain(|branch| detail.level < 2 || !branch.short);
+    let most = detail.pick([400, 400, 84, 0]);
+    if all.len() <= most {
+        return all;
+    }
+    // A random step keeps the branches that stay from gathering on one side.
+    let step = all.len() / most;
+    let jump = |i: usize| super::random::hash(i as u32 ^ detail.seed) as usize % step.max(1);
+    (0..most).map(|i| all[(i * all.len() / most + jump(i)).min(all.len() - 1)]).collect()
+}
+
 /// Trunk.
 fn trunk(mesh: &mut Mesh, form: &Conifer, detail: &Detail) {
-    let wide = 0.012 + 0.02 * form.crown_width as f32 + 0.006 * form.trunk as f32;
+    let wide = 0.008 + 0.016 * form.crown_width as f32 + 0.006 * form.trunk as f32;
     let shares: &[f32] = match detail.level {
         0 => &[-0.1, 0.0, 0.03, 0.1, 0.25, 0.45, 0.7, 0.97],
         1 => &[-0.1, 0.03, 0.3, 0.97],
@@ -120,91 +142,143 @@ fn trunk(mesh: &mut Mesh, form: &Conifer, detail: &Detail) {
         .iter()
         .map(|&z| {
             let flare = 1.0 + 0.5 * super::math::exp(-z.max(0.0) / 0.025);
-            let light = mix(0.6, 0.4, smooth(form.trunk as f32, form.trunk as f32 + 0.2, z));
+            let light = mix(0.6, 0.25, smooth(form.trunk as f32, form.trunk as f32 + 0.2, z));
             let look = Look { part: 0.0, light, sway: 0.5 * pow(z.max(0.0), 1.6) };
-            Knot { at: Vec3::Z * z, radius: wide * (1.0 - 0.93 * z.max(0.0)) * flare, look }
+            Knot { at: Vec3::Z * z, radius: wide * pow(1.0 - 0.97 * z.max(0.0), 1.2) * flare, look }
         })
         .collect();
     tube::tube(mesh, &knots, detail.pick([9, 5, 3, 3]));
 }
 
-/// Branch as a feather: twigs to both sides and hanging below, in `count` triangles.
+/// Branch as a spray of `count` triangles: a blade along it and a comb of narrow blades to both sides and below.
 fn feather(mesh: &mut Mesh, branch: &Branch, detail: &Detail, count: usize, needles: f32, random: &mut Random) {
-    let side = Vec3::Z.cross(branch.out);
     let bough = if detail.level == 0 { 3 } else { 0 };
     if bough > 0 {
         let knot = |s: f32| Knot {
             at: branch.at(s),
-            radius: branch.length * 0.028 * (1.0 - s) + 0.0008,
-            look: Look { part: 0.15, light: 0.45, sway: 0.4 },
+            radius: branch.length * 0.022 * (1.0 - s) + 0.0006,
+            look: Look { part: 0.3, light: mix(0.25, 0.6, s), sway: 0.4 },
         };
         tube::tube(mesh, &[knot(0.0), knot(0.9)], 3);
     }
-    let twigs = count.saturating_sub(bough).max(2);
-    let size = detail.pick([1.0, 1.75, 2.6, 1.0]) * detail.swell() * mix(0.9, 1.05, needles);
-    // Fewer twigs on a coarse level are longer, but the branch keeps its length.
-    let crowd = (30.0 / twigs as f32).sqrt().min(1.6);
-    let push = 0.45 * pow(branch.foot.z.max(0.0), 1.4);
-    for k in 0..twigs {
-        let s = mix(0.12, 0.97, pow((k as f32 + 0.5) / twigs as f32, 0.8));
-        let hand = [1.0, -1.0, 0.0, 1.0, 0.0, -1.0, 0.0][k % 7];
-        let rest = (1.0 - s) * (0.55 + 0.45 * s);
-        let along_branch = branch.along(s);
-        let reach = branch.length * (0.10 + 0.62 * rest) * random.range(0.8, 1.2);
-        let hangs = hand == 0.0;
-        let along = if hangs {
-            -Vec3::Z * 0.8 + branch.out * 0.75 + side * random.signed() * 0.5
-        } else {
-            along_branch * 0.8 + side * hand * random.range(0.55, 0.95) - Vec3::Z * random.range(0.05, 0.35)
-        };
-        let along = along.normalize_or(branch.out);
-        let length = if hangs { reach * 0.55 + 0.03 * (1.3 - s) } else { reach * 0.85 };
-        let length = length * mix(1.0, size, 0.45) * crowd.max(1.0);
-        let width = (0.36 * length + 0.01) * mix(1.0, size, 0.75);
-        let flat = if hangs {
-            side + along_branch * random.signed() * 0.6
-        } else {
-            along.cross(Vec3::Z + random.ball() * 0.5)
-        };
-        let normal = branch.out * 0.9 + Vec3::Z * 0.45 + along * 0.25 + random.ball() * 0.12;
-        let open = (0.25 + 0.75 * s) * mix(0.8, 1.0, branch.high) * if hangs { 0.8 } else { 1.0 };
-        let light = open * random.range(0.9, 1.1) * detail.pick([1.0, 1.0, 1.25, 1.0]);
-        let sway = push + 0.25 * s;
-        let look = Look { part: mix(0.75, 1.0, s), light: light * 0.72, sway };
-        let tip = Look { part: 1.0, light, sway: sway + 0.1 };
-        let at = branch.at(s.min(1.0 - 0.5 * length / branch.length.max(length)));
-        let across = flat.normalize_or(side);
-        leaf::triangle(mesh, &Leaf { at, along, across, length, width, normal, look, tip }, 0.2);
+    spine(mesh, branch, detail, random);
+    let comb = count.saturating_sub(bough + 1);
+    for k in 0..comb {
+        let s = mix(detail.pick([0.1, 0.2, 0.3, 0.0]), 0.95, pow((k as f32 + 0.5) / comb as f32, 0.9));
+        let hand = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let hangs = k % 3 == detail.pick([2, 0, 0, 0]);
+        let gap = 1.6 * branch.length / comb as f32 * needles;
+        needle(mesh, branch, detail, &Place { s, hand, hangs, gap }, random);
     }
 }
 
-/// Spire above the last whorl.
+/// Blade along the outer part of a branch; on the far levels along nearly all of it.
+fn spine(mesh: &mut Mesh, branch: &Branch, detail: &Detail, random: &mut Random) {
+    let from = branch.at(detail.pick([0.6, 0.15, 0.1, 0.0]));
+    let way = branch.at(1.0) - from;
+    let length = way.length().max(0.01);
+    let along = way.normalize_or(branch.out);
+    // Far blades lie at all angles around their branch, so that they cover from the side as well.
+    let up = Vec3::Z + random.ball() * detail.pick([0.4, 0.9, 1.6, 0.0]);
+    let across = along.cross(up).normalize_or(branch.out.cross(Vec3::Z));
+    let normal = branch.out * 0.5 + Vec3::Z * 0.8 + random.ball() * 0.15;
+    let width = (length * detail.pick([0.12, 0.22, 0.36, 0.0])).min(detail.pick([0.03, 0.05, 0.09, 0.0]));
+    let width = width.max(finest(detail)) * fill(detail);
+    let push = push(branch);
+    let look = Look { part: 0.9, light: detail.pick([0.6, 0.35, 0.4, 0.0]), sway: push + 0.1 };
+    let tip = Look { part: 1.0, light: random.range(0.85, 1.0), sway: push + 0.3 };
+    leaf::triangle(mesh, &Leaf { at: from, along, across, length, width, normal, look, tip }, 0.0);
+}
+
+/// Place of a blade in a branch's comb.
+struct Place {
+    /// Share of the branch's length.
+    s: f32,
+    /// Side: 1 or -1.
+    hand: f32,
+    /// Blade that hangs below the branch.
+    hangs: bool,
+    /// Distance to the next blade of the same side.
+    gap: f32,
+}
+
+/// Blade of a comb.
+fn needle(mesh: &mut Mesh, branch: &Branch, detail: &Detail, place: &Place, random: &mut Random) {
+    let Place { s, hand, hangs, gap } = *place;
+    let side = Vec3::Z.cross(branch.out) * hand;
+    let along_branch = branch.along(s);
+    let lance = (1.0 - s).sqrt() * mix(0.6, 1.0, smooth(0.0, 0.35, s));
+    let most = (branch.length * 0.25).max(detail.pick([0.06, 0.08, 0.1, 0.0]));
+    let reach = ((branch.length * 0.46).min(most) * lance + 0.012) * random.range(0.75, 1.2);
+    let (way, length) = if hangs {
+        let hang = branch.hang * random.range(0.5, 1.1) * detail.pick([1.1, 1.1, 1.3, 1.0]) * mix(1.1, 0.7, s);
+        (branch.out * 0.6 - Vec3::Z + side * random.signed() * 0.7, hang.max(reach * 0.4))
+    } else {
+        (along_branch * random.range(0.7, 1.0) + side * 0.75 - Vec3::Z * random.range(0.0, 0.3), reach)
+    };
+    let along = way.normalize_or(branch.out);
+    let flat = if hangs { side + along_branch * random.signed() } else { along.cross(Vec3::Z + random.ball() * 0.7) };
+    let across = flat.normalize_or(side);
+    let width = (gap * 1.6).clamp(0.13 * length, 0.32 * length).max(finest(detail)) * fill(detail);
+    let normal = if hangs {
+        branch.out + Vec3::Z * 0.1 + side * 0.2
+    } else {
+        branch.out * 0.5 + Vec3::Z * 0.8 + side * 0.3 + random.ball() * 0.2
+    };
+    // The inside of the crown and what hangs below a branch lie in the shade.
+    let open = mix(0.28, 1.0, smooth(0.0, 0.9, s)) * mix(0.85, 1.0, branch.high) * if hangs { 0.6 } else { 1.0 };
+    let light = open * random.range(0.88, 1.08);
+    let sway = push(branch) + 0.25 * s;
+    let look = Look { part: mix(0.82, 0.95, s), light: light * 0.62, sway };
+    let tip = Look { part: 1.0, light, sway: sway + 0.1 };
+    leaf::triangle(mesh, &Leaf { at: branch.at(s), along, across, length, width, normal, look, tip }, 0.0);
+}
+
+/// Width of the narrowest blades of a level: about a pixel where the level is drawn.
+fn finest(detail: &Detail) -> f32 {
+    detail.pick([0.0, 0.009, 0.02, 0.0])
+}
+
+/// Factor on the width of blades that makes levels cover the same; blades stay slender.
+fn fill(detail: &Detail) -> f32 {
+    mix(1.0, detail.fill, 0.8).min(2.0)
+}
+
+/// Share of the wind's push at a branch's foot.
+fn push(branch: &Branch) -> f32 {
+    0.45 * pow(branch.foot.z.max(0.0), 1.4)
+}
+
+/// Spire above the last whorl: blades that close in on the tip.
 fn leader(mesh: &mut Mesh, detail: &Detail) {
-    let count = detail.pick([14, 6, 3, 0]);
-    let size = detail.pick([0.02, 0.026, 0.034, 0.0]) * detail.swell();
+    let count = detail.pick([24, 7, 4, 0]);
+    let width = detail.pick([0.006, 0.012, 0.026, 0.0]);
     for i in 0..count {
-        let share = (i as f32 + 0.5) / count as f32;
+        let share = i as f32 / (count - 1).max(1) as f32;
         let out = around(i as f32 * GOLDEN);
-        let look = Look { part: 1.0, light: 0.9, sway: 0.7 };
-        let at = Vec3::Z * (0.93 + 0.05 * share);
-        let along = (Vec3::Z * 0.9 + out * (1.0 - 0.8 * share)).normalize_or(Vec3::Z);
-        let across = out.cross(Vec3::Z);
-        let one = Leaf { at, along, across, length: 0.035, width: size, normal: out, look, tip: look };
+        let look = Look { part: 0.95, light: 0.65, sway: 0.6 };
+        let tip = Look { part: 1.0, light: 0.95, sway: 0.7 };
+        let at = Vec3::Z * mix(0.9, 0.965, share);
+        let along = (Vec3::Z * mix(0.7, 1.0, share) + out * (1.0 - share)).normalize_or(Vec3::Z);
+        let (across, normal) = (out.cross(Vec3::Z), out + Vec3::Z * 0.4);
+        let length = mix(detail.pick([0.03, 0.045, 0.06, 0.0]), 0.035, share);
+        let one = Leaf { at, along, across, length, width, normal, look, tip };
         leaf::triangle(mesh, &one, 0.0);
     }
 }
 
-/// Far levels: cones that overlap like tiers.
-fn cones(mesh: &mut Mesh, form: &Conifer, detail: &Detail, tiers: usize, wide: f32) {
+/// Far levels: cones that overlap like tiers, of a share of the crown's width and with a share of the sky.
+fn cones(mesh: &mut Mesh, form: &Conifer, detail: &Detail, tiers: usize, [wide, light]: [f32; 2]) {
     let (foot, sides) = (form.trunk as f32, 6);
     let swell = detail.swell() * wide;
     for t in 0..tiers {
         let low = t as f32 / tiers as f32;
-        let high = if t == tiers - 1 { 1.0 } else { (t as f32 + 1.55) / tiers as f32 };
+        let overlap = if tiers > 4 { 1.3 } else { 1.55 };
+        let high = if t == tiers - 1 { 1.0 } else { (t as f32 + overlap) / tiers as f32 };
         let radius = form.crown_width as f32 * 0.5 * profile(form, low + 0.06) * swell;
         let z = |h: f32| foot + (1.0 - foot) * h;
         let drop = radius * form.droop as f32 * 0.45;
-        let top_look = Look { part: 1.0, light: 0.65, sway: 0.6 * low };
+        let top_look = Look { part: 1.0, light: light - 0.05, sway: 0.6 * low };
         let top = mesh.vertex(Vec3::Z * z(high), Vec3::Z, top_look);
         let ring: Vec<u16> = (0..sides)
             .map(|s| {
@@ -212,7 +286,7 @@ fn cones(mesh: &mut Mesh, form: &Conifer, detail: &Detail, tiers: usize, wide: f
                 let wild = Random::new(detail.seed, (700 + t * sides + s) as u32).signed() * 0.18;
                 let jag = if s % 2 == 0 { 1.18 } else { 0.8 } + wild;
                 let at = out * (radius * jag) + Vec3::Z * (z(low) - drop * jag).max(0.02);
-                mesh.vertex(at, out + Vec3::Z * 0.5, Look { part: 1.0, light: 0.7, sway: 0.6 * low + 0.1 })
+                mesh.vertex(at, out + Vec3::Z * 0.5, Look { part: 1.0, light, sway: 0.6 * low + 0.1 })
             })
             .collect();
         for s in 0..sides {

@@ -67,8 +67,8 @@ pub(super) fn populations(kind: Kind, biomes: &Biomes, dice: &mut Dice) -> Vec<P
     found
 }
 
-/// The leaves over ground of a colour: in its hue, and brighter, because they shade one another; about as bright as those
-/// of the ready population.
+/// The leaves over ground of a colour: in its hue, and brighter, because they shade one another; about as bright as
+/// those of the ready population.
 fn leaves(ground: Option<[f64; 3]>, ready: [f64; 3]) -> [f64; 3] {
     let Some(ground) = ground else { return ready };
     let sum = |color: [f64; 3]| color.iter().sum::<f64>().max(1e-3);

@@ -81,8 +81,8 @@ impl CanopyRows {
     }
 }
 
-/// For each population, what it covers, if that is known and the population is on. `populations`: those of the scenery's
-/// planet, or of a newer one with as many.
+/// For each population, what it covers, if that is known and the population is on. `populations`: those of the
+/// scenery's planet, or of a newer one with as many.
 fn layers<'a>(
     scenery: &'a Scenery,
     populations: &'a [Population],
