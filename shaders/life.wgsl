@@ -96,7 +96,7 @@ const SOFT_FAR: f32 = 0.8;
 // Share of sunlight that leaves let through to their other side.
 const TRANSLUCENT: f32 = 0.25;
 // Albedo of the ground around, which lights the undersides of objects.
-const GROUND_ALBEDO: f32 = 0.12;
+const GROUND_ALBEDO: f32 = 0.25;
 
 @fragment
 fn fragment(in: Surface) -> Output {
@@ -117,7 +117,8 @@ fn fragment(in: Surface) -> Output {
     var shade = object_shade(in.rel_m + l * in.own_m, n);
     shade.sun -= (1.0 - shade.known.x) * (1.0 - in.among);
     let sky = in.sky * mix(1.0, shade.sky, 1.0 - 0.6 * leaf);
-    let ground = in.sun.rgb * (max(dot(up, l), 0.0) * shade.sun) + sky;
+    // The ground around is in the sun as far as crowns leave it the sky, also where the object shades itself.
+    let ground = in.sun.rgb * (max(dot(up, l), 0.0) * shade.sky) + sky;
     let from_below = ground * (GROUND_ALBEDO * (1.0 - open) * in.look.y);
     let through_leaves = in.sun.rgb * THROUGH_LEAVES * (1.0 - shade.sky) * open;
     let radiance = albedo * (in.sun.rgb * (lit * shade.sun) + sky * open + through_leaves + from_below) / PI;
