@@ -14,8 +14,8 @@ const SUNS_DEG: [f32; 2] = [25.0, 70.0];
 const TURNS: u8 = 2;
 /// Pixels along a side of the pictures.
 const SIDE: usize = 56;
-/// As in `life.wgsl`: how soft the edge between light and shade is on leaves of the farthest level, the light that comes
-/// through them, and the way towards the sun within a crown that `light` already darkens.
+/// Softness of the edge between light and shade on leaves of the farthest level, the light that comes through them, and
+/// the way towards the sun within a crown that `light` already darkens; as in `life.wgsl`.
 const SOFT: f32 = 0.8;
 const TRANSLUCENT: f32 = 0.25;
 const OWN: f32 = 0.1;
