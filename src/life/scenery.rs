@@ -93,7 +93,7 @@ fn own_reach_m(placement: &Placement, quality: Quality) -> f64 {
     (placement.population().height_m * heights).min(by_count_m)
 }
 
-/// Times the reach of a denser population of its size in its biomes beyond which a population is not drawn: single trees
+/// Factor on the reach of a denser population of like size beyond which another in its biomes is not drawn: single trees
 /// would stand on a forest that is a canopy already.
 const BEYOND_OTHERS: f64 = 1.3;
 
