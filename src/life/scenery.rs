@@ -93,8 +93,8 @@ fn own_reach_m(placement: &Placement, quality: Quality) -> f64 {
     (placement.population().height_m * heights).min(by_count_m)
 }
 
-/// Factor on the reach of a denser population of like size beyond which another in its biomes is not drawn: single trees
-/// would stand on a forest that is a canopy already.
+/// Factor on the reach of a denser population of like size beyond which another in its biomes is not drawn: single
+/// trees would stand on a forest that is a canopy already.
 const BEYOND_OTHERS: f64 = 1.3;
 
 /// Distance up to which objects of a population are drawn among all.
