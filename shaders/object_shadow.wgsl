@@ -13,9 +13,9 @@ struct ObjectShade {
 const NO_SHADE: ObjectShade = ObjectShade(1.0, 1.0, vec2f(0.0));
 // Around a point, the metres within which objects hide its sky, and the share that crowns leave of it.
 const SKY_REACH_M: f32 = 5.0;
-const UNDER_CROWNS: f32 = 0.3;
+const UNDER_CROWNS: f32 = 0.45;
 // Light that crowns let through, as a share of the sun's: green.
-const THROUGH_LEAVES: vec3f = vec3f(0.030, 0.042, 0.016);
+const THROUGH_LEAVES: vec3f = vec3f(0.060, 0.085, 0.030);
 // The cascade that tells of the sky.
 const WIDE: i32 = 1;
 
