@@ -189,8 +189,8 @@ fn the_canopy_from_afar_has_the_colour_and_the_light_of_its_objects() {
     // Name of the population, and the greatest factors of colour and of light.
     for (name, most_color, most_light) in [
         ("Broadleaf tree", 1.06, 1.3),
-        // Coarse levels of conifers cover less from above than the nearest one, whose area counts: over bright ground they
-        // are too bright. To be brought down.
+        // Coarse levels of conifers cover less from above than the nearest one, whose area counts: over bright ground
+        // they are too bright. To be brought down.
         ("Conifer", 1.35, 2.8),
         ("Shrub", 1.03, 1.06),
         ("Grass", 1.06, 1.15),
