@@ -21,9 +21,10 @@ struct CanopyLayer {
 
 // Biomes that count at a pixel.
 const CANOPY_BIOMES: i32 = 2;
+const CANOPY_MOST: i32 = CANOPY_BIOMES * CANOPY_LAYERS;
 
 struct Canopy {
-    layers: array<CanopyLayer, 8>,
+    layers: array<CanopyLayer, CANOPY_MOST>,
     // For each biome: the end of its layers, the first one's start at 0
     ends: vec2<i32>,
     // For each biome: its share of the pixel
@@ -58,12 +59,15 @@ fn between(x: f32, from_x: f32, to_x: f32, softness: f32) -> f32 {
 
 // Share of its density that a population has. `row`: its first row.
 fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
-    let ground = biome_param(id, row + 2);
-    let climate = biome_param(id, row + 3);
     let shore_m = biome_param(id, row + 4).z;
     let on_land = select(1.0, saturate1(place.above_m - shore_m + 0.5), body.has_sea != 0u);
-    return on_land * between(place.slope_deg, ground.x, ground.y, 3.0) * between(place.moisture, ground.z, ground.w, 0.04)
-        * between(place.above_m, climate.x, climate.y, 15.0) * between(place.temperature_c, climate.z, climate.w, 2.0);
+    if on_land <= 0.0 { return 0.0; }
+    let ground = biome_param(id, row + 2);
+    let climate = biome_param(id, row + 3);
+    return on_land * between(place.slope_deg, ground.x, ground.y, SOFT_DEG)
+        * between(place.moisture, ground.z, ground.w, SOFT_MOISTURE)
+        * between(place.above_m, climate.x, climate.y, SOFT_M)
+        * between(place.temperature_c, climate.z, climate.w, SOFT_C);
 }
 
 // How much darker the creases between crowns are than their tops: a factor from 1 - CREASES to 1 + CREASES.
@@ -100,8 +104,8 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
             let shape = biome_param(id, row + 1);
             let kind = biome_param(id, row + 4);
             let areas = density * (1.0 + (0.25 + 0.75 * kind.y) * noise.x) * vec2f(color.w, shape.x);
-            // As in src/life/scenery.rs: up to half their reach all objects are drawn.
-            let drawn = saturate1(2.0 - 2.0 * place.distance_m / max(shape.w, 1e-3));
+            // As in src/life/scenery.rs.
+            let drawn = saturate1((1.0 - place.distance_m / max(shape.w, 1e-3)) / (1.0 - FULL_SHARE));
             let rest = exp(-(1.0 - drawn) * (areas.x + areas.y * (*canopy).eye_tangent));
             let size = biome_param(id, row + 5).zw;
             (*canopy).layers[end] =
@@ -167,15 +171,15 @@ fn object_light(at: vec2<i32>, rays: CanopyRays) -> vec2f {
     let above = biome_param(at.x, at.y + 5).xy;
     let aslant = biome_param(at.x, at.y + 6);
     let sky = biome_param(at.x, at.y + 1).yz;
-    let low = saturate1((rays.sun_deg - 25.0) / 45.0);
-    let aside = saturate1(rays.eye_deg / 60.0);
+    let low = saturate1((rays.sun_deg - COVER_SUNS_DEG.x) / (COVER_SUNS_DEG.y - COVER_SUNS_DEG.x));
+    let aside = saturate1(rays.eye_deg / COVER_EYES_DEG.y);
     let from_side = mix(mix(aslant.x, aslant.y, low), mix(aslant.z, aslant.w, low), rays.against);
     return vec2f(mix(mix(above.x, above.y, low), from_side, aside), mix(sky.x, sky.y, aside));
 }
 
 // Light that the tops of crowns have more than all that is seen of a crown that stands alone: from above, aslant from
 // the side of the sun, and aslant against it.
-const TOPS_BELOW: f32 = 0.08;
+const TOPS_FROM_ABOVE: f32 = 0.08;
 const TOPS_ASLANT: f32 = 0.35;
 const TOPS_AGAINST: f32 = 1.0;
 
@@ -201,7 +205,7 @@ fn canopy_radiance(canopy: Canopy, sunlight: vec3f, sky: vec3f, sun_cosine: f32,
         let open = mix(1.0, exp(-above.x), 1.0 - UNDER_CROWNS);
         // Of crowns that close, one sees the tops, which have more light.
         let closed = layer.casts * (1.0 - exp(-layer.areas.x));
-        let more = mix(TOPS_BELOW, mix(TOPS_ASLANT, TOPS_AGAINST, rays.against), saturate1(rays.eye_deg / 60.0));
+        let more = mix(TOPS_FROM_ABOVE, mix(TOPS_ASLANT, TOPS_AGAINST, rays.against), saturate1(rays.eye_deg / COVER_EYES_DEG.y));
         let light = object_light(layer.at, rays) * (1.0 + closed * more);
         sum += layer.seen * layer.albedo * (sunlight * (sun * canopy.relief * light.x) + sky * (open * light.y));
     }

@@ -77,7 +77,7 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
         instance.neighbours, ray_tangent(dot(body.eye_up, sun)), dot(normalize(-out.rel_m), sun),
     );
     out.level = in.look.w;
-    out.own_m = 0.1 * in.look.x * instance.size_m;
+    out.own_m = OWN_LEAVES * in.look.x * instance.size_m;
     // Coarse levels are smooth where fine ones have single leaves.
     out.mottle = vec4f(in.position * 11.0 + 64.0 * second.a, in.look.w * in.look.x);
     return out;
@@ -89,12 +89,6 @@ struct Output {
     @location(1) surface: vec4f,
 }
 
-// How soft the edge between light and shade of leaves is: coarse levels have one surface where fine ones have leaves of
-// all directions. As in src/life/form/cover.rs.
-const SOFT_NEAR: f32 = 0.35;
-const SOFT_FAR: f32 = 0.8;
-// Share of sunlight that leaves let through to their other side.
-const TRANSLUCENT: f32 = 0.25;
 // Albedo of the ground around, which lights the undersides of objects.
 const GROUND_ALBEDO: f32 = 0.25;
 
@@ -106,7 +100,7 @@ fn fragment(in: Surface) -> Output {
     let leaf = in.look.x;
     let facing = dot(n, l);
     // Light is spread within a crown: its edge between light and shade is soft.
-    let soft = leaf * mix(SOFT_NEAR, SOFT_FAR, in.level);
+    let soft = leaf * mix(LEAF_SOFT.x, LEAF_SOFT.y, in.level);
     let front = max((facing + soft) / (1.0 + soft), 0.0) / (1.0 + 0.5 * soft);
     let behind = TRANSLUCENT * leaf * max(-facing, 0.0);
     // What sees little of the sky is shaded by the rest of the object.

@@ -444,7 +444,9 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     let wet = pixel_ground.water.x;
     canopy_normal = n;
     let place = canopy_place(in, climate, n, up, distance_m, sqrt(length(rel_x) * length(rel_y)));
-    let canopy = canopy_at(ground.biomes, ground.shares, n, v, place);
+    // Nothing stands in a river: through its water one sees the bed.
+    let on_land = 1.0 - smoothstep(0.4, 0.9, wet);
+    let canopy = canopy_at(ground.biomes, on_land * ground.shares, n, v, place);
     if frame.debug_view == VIEW_ALBEDO {
         let albedo = canopy_albedo(canopy, ground.albedo);
         return Shaded(mix(albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);

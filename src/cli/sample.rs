@@ -205,7 +205,8 @@ fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], mom
     let populations = moment.populations(terrain, sample);
     if !populations.is_empty() {
         let Canopy { cover, height_m, .. } = moment.canopies.at(sample);
-        let named = populations.iter().map(|(name, per_hectare)| format!("{name} {per_hectare:.0}"));
+        let number = |n: f64| if n < 10.0 { format!("{n:.2}") } else { format!("{n:.0}") };
+        let named = populations.iter().map(|(name, per_hectare)| format!("{name} {}", number(*per_hectare)));
         let named = named.collect::<Vec<_>>().join(", ");
         lines.push(format!("canopy       {:.0}% of the ground, {height_m:.1} m high", 100.0 * cover));
         lines.push(format!("per hectare  {named}"));

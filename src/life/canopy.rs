@@ -4,19 +4,13 @@ use super::form::Cover;
 use super::grid::HECTARE_M2;
 use super::model::seed;
 use super::suitability::Suitability;
-use crate::planet::{Form, Planet, Population};
+use crate::planet::{Planet, Population};
 use crate::terrain::Sample;
 use rayon::prelude::*;
 
-/// Variants of a form that its cover is the mean of: they differ little.
-const VARIANTS: u32 = 1;
-const _: () = assert!(VARIANTS <= Form::VARIANTS);
-
-/// The cover of a population's form.
+/// The cover of a population's form: that of its first variant, since variants differ little.
 pub(crate) fn cover(population: &Population) -> Cover {
-    let covers: Vec<Cover> =
-        (0..VARIANTS).map(|variant| Cover::new(&population.form, seed(population, variant))).collect();
-    Cover::mean(&covers)
+    Cover::new(&population.form, seed(population, 0))
 }
 
 /// Height in metres at which objects begin to count as casting shadows on the ground, and at which all of them do.
@@ -78,38 +72,51 @@ pub struct Canopy {
 /// The canopies of a planet: the densities of its populations, and what they cover. The default has none.
 #[derive(Clone, Debug, Default)]
 pub struct Canopies {
-    layers: Vec<Option<(Suitability, CanopyLayer)>>,
+    populations: usize,
+    /// Populations that are on, the lowest first.
+    layers: Vec<Layer>,
+}
+
+/// A population of a planet.
+#[derive(Clone, Debug)]
+struct Layer {
+    population: usize,
+    suitability: Suitability,
+    covers: CanopyLayer,
 }
 
 impl Canopies {
     /// Measures the forms of a planet, which takes some milliseconds for each population.
     pub fn new(planet: &Planet) -> Self {
-        let layer = |population: &Population| {
-            let layer = CanopyLayer::new(population, &cover(population));
-            population.enabled.then(|| (Suitability::new(planet, population), layer))
+        let on: Vec<_> = planet.life.iter().enumerate().filter(|(_, population)| population.enabled).collect();
+        let layer = |&(index, population): &(usize, &Population)| Layer {
+            population: index,
+            suitability: Suitability::new(planet, population),
+            covers: CanopyLayer::new(population, &cover(population)),
         };
-        Self { layers: planet.life.par_iter().map(layer).collect() }
+        let mut layers: Vec<Layer> = on.par_iter().map(layer).collect();
+        layers.sort_by(|a, b| a.covers.height_m.total_cmp(&b.covers.height_m));
+        Self { populations: planet.life.len(), layers }
     }
 
     /// Objects on a hectare at a sample, for each population of the planet: the mean over its groups.
     pub fn densities_per_hectare(&self, sample: &Sample) -> Vec<f64> {
-        let density =
-            |(suitability, _): &(Suitability, CanopyLayer)| suitability.at(sample) * suitability.population.per_hectare;
-        self.layers.iter().map(|layer| layer.as_ref().map_or(0.0, density)).collect()
+        let mut densities = vec![0.0; self.populations];
+        for Layer { population, suitability, .. } in &self.layers {
+            densities[*population] = suitability.at(sample) * suitability.population.per_hectare;
+        }
+        densities
+    }
+
+    /// What each population covers at a sample, the lowest first.
+    fn covered<'a>(&'a self, sample: &'a Sample) -> impl Iterator<Item = (f64, &'a CanopyLayer)> {
+        self.layers.iter().map(|layer| (layer.covers.covered(layer.suitability.at(sample)), &layer.covers))
     }
 
     /// Mean colour (albedo, linear sRGB) of what is seen of a place from far above, with ground of a colour: higher
     /// objects hide lower ones.
     pub fn albedo(&self, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
-        let mut seen: Vec<(f64, &CanopyLayer)> = self
-            .layers
-            .iter()
-            .flatten()
-            .map(|(suitability, layer)| (layer.covered(suitability.at(sample)), layer))
-            .filter(|(cover, _)| *cover > 0.0)
-            .collect();
-        seen.sort_by(|(_, a), (_, b)| a.height_m.total_cmp(&b.height_m));
-        seen.iter().fold(ground, |below, (cover, layer)| {
+        self.covered(sample).fold(ground, |below, (cover, layer)| {
             std::array::from_fn(|c| below[c] + (layer.color[c] - below[c]) * cover)
         })
     }
@@ -117,8 +124,7 @@ impl Canopies {
     /// What stands at a sample.
     pub fn at(&self, sample: &Sample) -> Canopy {
         let (mut open, mut covered, mut height_m) = (1.0, 0.0, 0.0);
-        for (suitability, layer) in self.layers.iter().flatten() {
-            let cover = layer.covered(suitability.at(sample));
+        for (cover, layer) in self.covered(sample) {
             open *= 1.0 - cover;
             covered += cover;
             height_m += cover * layer.height_m;

@@ -23,7 +23,7 @@ mod placement;
 pub mod query;
 pub mod scenery;
 mod soil;
-mod suitability;
+pub(crate) mod suitability;
 
 pub use canopy::{Canopies, Canopy};
 pub use model::Model;

@@ -50,8 +50,10 @@ pub struct SceneryCell {
     pub center_planet_m: DVec3,
     /// Radius of that sphere.
     pub bounding_radius_m: f64,
-    /// Content key of the ground and of the population.
-    key: Key,
+    /// Content key of the population, and of what decides about the ground besides its shape.
+    rules: Key,
+    /// Content key of the shape of the ground.
+    ground: Key,
 }
 
 /// The objects that a view draws.
@@ -97,18 +99,21 @@ fn own_reach_m(placement: &Placement, quality: Quality) -> f64 {
 /// trees would stand on a forest that is a canopy already.
 const BEYOND_OTHERS: f64 = 1.3;
 
-/// Distance up to which objects of a population are drawn among all.
-fn reach_m(placement: &Placement, all: &[Placement], quality: Quality) -> f64 {
-    let own = placement.population();
+/// Distances up to which objects of each population are drawn among all.
+fn reaches_m(placements: &[Placement], quality: Quality) -> Vec<f64> {
     let area = |population: &Population| population.per_hectare * population.height_m * population.height_m;
-    let hides = |other: &&Placement| {
-        let other = other.population();
+    let hides = |own: &Population, other: &Population| {
         let meets =
             own.biomes.is_empty() || other.biomes.is_empty() || own.biomes.chars().any(|key| other.stands_in(key));
         meets && area(other) > area(own) && other.height_m > 0.5 * own.height_m
     };
-    let others = all.iter().filter(hides).map(|other| BEYOND_OTHERS * own_reach_m(other, quality));
-    others.fold(own_reach_m(placement, quality), f64::min)
+    let own_m: Vec<f64> = placements.iter().map(|placement| own_reach_m(placement, quality)).collect();
+    let among_m = |placement: &Placement, own_reach_m: f64| {
+        let others = placements.iter().zip(&own_m);
+        let denser = others.filter(|(other, _)| hides(placement.population(), other.population()));
+        denser.map(|(_, other_m)| BEYOND_OTHERS * other_m).fold(own_reach_m, f64::min)
+    };
+    placements.iter().zip(&own_m).map(|(placement, own_m)| among_m(placement, *own_m)).collect()
 }
 
 /// Cells and models of earlier views.
@@ -129,7 +134,8 @@ const HEIGHT_COUNTS: f64 = 0.8;
 struct Needed<'a> {
     placement: &'a Placement,
     id: NodeId,
-    key: Key,
+    rules: Key,
+    ground: Key,
     away_m: f64,
 }
 
@@ -160,13 +166,14 @@ impl SceneryCache {
         if keep_going() {
             self.measure_covers(&placements);
         }
-        for placement in &placements {
+        let reaches_m = reaches_m(&placements, view.quality);
+        for (placement, reach_m) in placements.iter().zip(&reaches_m) {
             let index = usize::from(placement.index);
-            scenery.reach_m[index] = reach_m(placement, &placements, view.quality);
+            scenery.reach_m[index] = *reach_m;
             scenery.covers[index] = self.covers.get(&Model::key_of(placement.population())).copied();
             is_whole &= scenery.covers[index].is_some();
         }
-        let needed = needed(terrain, view, &placements);
+        let needed = needed(terrain, view, (&placements, &reaches_m));
         // From afar, nothing is drawn.
         for placement in placements.iter().filter(|_| !needed.is_empty()) {
             let index = usize::from(placement.index);
@@ -174,8 +181,7 @@ impl SceneryCache {
             is_whole &= scenery.models[index].is_some();
         }
         is_whole &= self.make_lacking(terrain, &needed, keep_going);
-        // Objects of a ground before an edit stand in for those that are not there yet.
-        let cells = needed.iter().filter_map(|needed| self.cells.get(&(needed.placement.index, needed.id)));
+        let cells = needed.iter().filter_map(|needed| self.known_by_rules(needed));
         scenery.cells = cells.filter(|cell| !cell.objects.is_empty()).cloned().collect();
         self.trim(&scenery);
         (scenery, is_whole)
@@ -206,7 +212,12 @@ impl SceneryCache {
     }
 
     fn known(&self, needed: &Needed<'_>) -> Option<&Arc<SceneryCell>> {
-        self.cells.get(&(needed.placement.index, needed.id)).filter(|cell| cell.key == needed.key)
+        self.known_by_rules(needed).filter(|cell| cell.ground == needed.ground)
+    }
+
+    /// A cell that is kept, also from the ground before an edit: its objects stand in for those that are not there yet.
+    fn known_by_rules(&self, needed: &Needed<'_>) -> Option<&Arc<SceneryCell>> {
+        self.cells.get(&(needed.placement.index, needed.id)).filter(|cell| cell.rules == needed.rules)
     }
 
     /// Measures the covers of populations that are not kept.
@@ -250,10 +261,12 @@ impl Scenery {
 
 /// Cells around the eye that a view needs, nearest first: those behind it, too, for shadows, and because it may turn
 /// before the next surface is there.
-fn needed<'a>(terrain: &Terrain, view: &View, placements: &'a [Placement]) -> Vec<Needed<'a>> {
+///
+/// `placements`, `reaches_m`: all that are on, and how far each is drawn.
+fn needed<'a>(terrain: &Terrain, view: &View, (placements, reaches_m): (&'a [Placement], &[f64])) -> Vec<Needed<'a>> {
     let planet = terrain.planet();
     let (eye, planet_m) = (view.camera.position_planet_m, planet.radius_m());
-    let farthest_m = placements.iter().map(|placement| own_reach_m(placement, view.quality)).fold(0.0, f64::max);
+    let farthest_m = reaches_m.iter().copied().fold(0.0, f64::max);
     // From orbit the ground below is not even asked for.
     if eye.length() - planet_m - terrain.height_bounds_m().1 > farthest_m / HEIGHT_COUNTS {
         return Vec::new();
@@ -265,19 +278,19 @@ fn needed<'a>(terrain: &Terrain, view: &View, placements: &'a [Placement]) -> Ve
         return Vec::new();
     }
     // What decides about the ground, the climate and the biomes of a place.
-    let rules = Key::of(&(&planet.biomes, &planet.climate, planet.sea_level_m(), planet.radius_km, planet.seed));
+    let site = Key::of(&(&planet.biomes, &planet.climate, planet.sea_level_m(), planet.radius_km, planet.seed));
     let mut needed = Vec::new();
-    for placement in placements {
-        let reach_m = reach_m(placement, placements, view.quality);
+    for (placement, reach_m) in placements.iter().zip(reaches_m) {
         // From above, less of the ground is in reach.
         let flat_m = (reach_m * reach_m - (HEIGHT_COUNTS * above_m).powi(2)).max(0.0).sqrt();
         if flat_m <= 0.0 {
             continue;
         }
-        let own = Key::of(&(rules, placement.population().placed()));
+        let rules = Key::of(&(site, placement.population().placed()));
         for id in placement.grid.cells_within(dir, flat_m) {
-            let key = Key::of(&(own, terrain.tile_keys_at(id)));
-            needed.push(Needed { placement, id, key, away_m: angle(id.direction(0.5, 0.5), dir) * planet_m });
+            let ground = Key::of(&terrain.tile_keys_at(id));
+            let away_m = angle(id.direction(0.5, 0.5), dir) * planet_m;
+            needed.push(Needed { placement, id, rules, ground, away_m });
         }
     }
     needed.sort_by(|a, b| {
@@ -298,7 +311,8 @@ fn make(terrain: &Terrain, needed: &Needed<'_>, soil: Option<&Soil>, memory: &mu
         center_planet_m: middle,
         bounding_radius_m: objects.iter().map(reach).fold(0.0, f64::max),
         objects,
-        key: needed.key,
+        rules: needed.rules,
+        ground: needed.ground,
     }
 }
 
@@ -315,5 +329,40 @@ fn object(instance: &Instance, planet_m: f64) -> SceneryObject {
         rank: instance.rank as f32,
         variant: instance.variant,
         place: instance.place.map(|part| part as f32),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lod::Camera;
+    use crate::planet::{Layer, Planet};
+    use crate::sphere::LatLon;
+
+    fn terrain(population: Population, amplitude_m: f64) -> Terrain {
+        let layers = vec![Layer { amplitude_m, ..Layer::default() }];
+        let planet = Planet { radius_km: 600.0, layers, life: vec![population], ..Planet::default() };
+        Terrain::try_new(Arc::new(planet)).unwrap()
+    }
+
+    #[test]
+    fn after_an_edit_of_the_ground_the_old_objects_stand_in_but_never_those_of_another_population() {
+        let trees = Population { slope_to_deg: 90.0, ..Population::default() };
+        let before = terrain(trees.clone(), 100.0);
+        let place = LatLon::from_degrees(10.0, 20.0);
+        let eye_m = 600_000.0 + before.height_m(place.direction()) + 30.0;
+        let camera = Camera::over(place, eye_m, 0.0, -0.5, Camera::DEFAULT_FOV_Y_RAD);
+        let view = View { camera, size_px: [320, 180], quality: Quality::Low };
+        let mut cache = SceneryCache::default();
+        let (made, is_whole) = cache.find(&before, &view, &|| true);
+        assert!(is_whole && made.object_count() > 100, "{}", made.object_count());
+
+        let (standing_in, is_whole) = cache.find(&terrain(trees.clone(), 101.0), &view, &|| false);
+        assert!(!is_whole);
+        assert_eq!(standing_in.object_count(), made.object_count());
+        let other = Population { seed: 7, ..trees };
+        let (others, is_whole) = cache.find(&terrain(other, 100.0), &view, &|| false);
+        assert!(!is_whole);
+        assert_eq!(others.object_count(), 0);
     }
 }

@@ -5,13 +5,13 @@ use crate::terrain::{Sample, noise};
 use glam::DVec3;
 
 /// Degrees over which a population thins out beyond the ends of its temperatures.
-const SOFT_C: f64 = 2.0;
+pub(crate) const SOFT_C: f64 = 2.0;
 /// Degrees over which it thins out beyond the ends of its slopes.
-const SOFT_DEG: f64 = 3.0;
+pub(crate) const SOFT_DEG: f64 = 3.0;
 /// Moisture over which it thins out beyond the ends of its range.
-const SOFT_MOISTURE: f64 = 0.04;
+pub(crate) const SOFT_MOISTURE: f64 = 0.04;
 /// Metres over which it thins out beyond the ends of its heights.
-const SOFT_M: f64 = 15.0;
+pub(crate) const SOFT_M: f64 = 15.0;
 
 /// What a population asks of a place.
 #[derive(Clone, Debug)]

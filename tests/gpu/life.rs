@@ -213,19 +213,14 @@ fn the_canopy_from_afar_has_the_colour_and_the_light_of_its_objects() {
 
 #[test]
 fn the_ground_beneath_a_canopy_is_in_its_shade() {
-    // Trees over grey ground.
-    let ready = ReadyPopulation::named("Broadleaf tree").unwrap();
     let mut planet = (*covered_by("Broadleaf tree")).clone();
     let view = view(&Arc::new(planet.clone()), 20_000.0, -90.0);
     let light = |planet: &Planet| {
         let planet = Arc::new(planet.clone());
         mean(&radiance(&surface_of(&planet, &view), &planet, view, 30.0))[1]
     };
-    planet.life.clear();
-    let bare = light(&planet);
-    let all = Population::default();
-    let (cold, dry) = (all.temperature_from_c, all.moisture_from);
-    planet.life = vec![Population { temperature_from_c: cold, moisture_from: dry, per_hectare: 40.0, ..ready }];
+    let bare = light(&Planet { life: Vec::new(), ..planet.clone() });
+    planet.life[0].per_hectare = 40.0;
     let open = light(&planet);
     planet.life[0].per_hectare = 400.0;
     let closed = light(&planet);

@@ -7,18 +7,20 @@ use crate::planet::Form;
 use glam::{Vec2, Vec3};
 
 /// Angles of the eye from the zenith, degrees.
-const EYES_DEG: [f32; 2] = [0.0, 60.0];
+pub(crate) const EYES_DEG: [f32; 2] = [0.0, 60.0];
 /// Angles of the sun from the zenith, degrees.
-const SUNS_DEG: [f32; 2] = [25.0, 70.0];
+pub(crate) const SUNS_DEG: [f32; 2] = [25.0, 70.0];
 /// Turns of the form that the means are of.
 const TURNS: u8 = 2;
 /// Pixels along a side of the pictures.
 const SIDE: usize = 56;
-/// Softness of the edge between light and shade on leaves of the farthest level, the light that comes through them, and
-/// the way towards the sun within a crown that `light` already darkens; as in `life.wgsl`.
-const SOFT: f32 = 0.8;
-const TRANSLUCENT: f32 = 0.25;
-const OWN: f32 = 0.1;
+/// Softness of the edge between light and shade on leaves, at the nearest level and at the farthest: coarse levels have
+/// one surface where fine ones have leaves of all directions.
+pub(crate) const LEAF_SOFT: [f32; 2] = [0.35, 0.8];
+/// Share of sunlight that leaves let through to their other side.
+pub(crate) const TRANSLUCENT: f32 = 0.25;
+/// Way towards the sun, in heights, within the leaves of a crown: `light` already darkens them.
+pub(crate) const OWN_LEAVES: f32 = 0.1;
 /// Distance from a surface at which it does not shade itself, in heights.
 const BIAS: f32 = 0.03;
 
@@ -66,18 +68,6 @@ impl Cover {
         out.sun = out.sun.map(|sums| sums.map(|sum| sum * share));
         out
     }
-
-    /// The mean of several.
-    pub(crate) fn mean(covers: &[Self]) -> Self {
-        let of = |part: fn(&Self) -> f64| covers.iter().map(part).sum::<f64>() / covers.len().max(1) as f64;
-        let sky = [of(|c| c.sky[0]), of(|c| c.sky[1])];
-        let sun = [
-            [of(|c| c.sun[0][0]), of(|c| c.sun[0][1])],
-            [of(|c| c.sun[1][0]), of(|c| c.sun[1][1])],
-            [of(|c| c.sun[2][0]), of(|c| c.sun[2][1])],
-        ];
-        Self { top: of(|c| c.top), side: of(|c| c.side), part: of(|c| c.part), sky, sun }
-    }
 }
 
 /// Unit vector at an angle from the zenith and an azimuth.
@@ -97,10 +87,10 @@ struct Hit {
 impl Hit {
     /// Share of the sunlight that is reflected to all sides, as in `life.wgsl`. `sun`: the mesh from the sun.
     fn sunlight(&self, sun: &View<'_>) -> f32 {
-        if sun.hides(self.position + sun.to_eye * (OWN * self.part + BIAS)) {
+        if sun.hides(self.position + sun.to_eye * (OWN_LEAVES * self.part + BIAS)) {
             return 0.0;
         }
-        let (facing, soft) = (self.normal.dot(sun.to_eye), SOFT * self.part);
+        let (facing, soft) = (self.normal.dot(sun.to_eye), LEAF_SOFT[1] * self.part);
         let front = ((facing + soft) / (1.0 + soft)).max(0.0) / (1.0 + 0.5 * soft);
         let behind = TRANSLUCENT * self.part * (-facing).max(0.0);
         (front + behind) * smooth(0.0, 0.75, self.light)

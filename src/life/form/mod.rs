@@ -12,7 +12,7 @@ mod bulbs;
 mod cactus;
 mod clump;
 mod conifer;
-mod cover;
+pub(crate) mod cover;
 mod crown;
 mod crystal;
 mod cushion;

@@ -13,10 +13,11 @@ pub(crate) const LAYERS: usize = 4;
 pub(crate) const LAYER_ROWS: usize = 7;
 /// Rows of a biome.
 pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
-/// Length in metres of which the period of the canopy's noise is a power of two: it divides the wrapped position.
+/// Noise of the canopy: its shortest and its longest period, metres. Periods are powers of two, which divide the wrapped
+/// position.
 const FINEST_TILE_M: f64 = 0.25;
 const WIDEST_TILE_M: f64 = 1024.0;
-/// Periods of the noise are so many times the width of an object: its features are a quarter of a period wide.
+/// Period of the noise in widths of an object. Features of the noise are a quarter of a period wide.
 const WIDTHS_PER_TILE: f64 = 3.0;
 
 /// The canopy of a population.

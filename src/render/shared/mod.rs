@@ -19,6 +19,9 @@ use super::tone::{self, Tone};
 use super::wgsl::{Constant, constant};
 use super::{horizon_pool, material_noise};
 use crate::giant;
+use crate::life::form::cover;
+use crate::life::scenery::FULL_SHARE;
+use crate::life::suitability;
 use crate::lod::horizon::AZIMUTHS;
 use crate::lod::morph::COARSEST_MORPHING;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VERTICES, Vertex};
@@ -83,6 +86,17 @@ pub(crate) fn text() -> String {
         ("BIOME_RULES", &(RULES as i32)),
         ("MIXTURE_ENTRIES", &MIXTURE_ENTRIES),
         ("WRAP_FAR_M", &WRAP_FAR_M),
+        // Life
+        ("SOFT_DEG", &suitability::SOFT_DEG),
+        ("SOFT_MOISTURE", &suitability::SOFT_MOISTURE),
+        ("SOFT_M", &suitability::SOFT_M),
+        ("SOFT_C", &suitability::SOFT_C),
+        ("FULL_SHARE", &FULL_SHARE),
+        ("COVER_EYES_DEG", &cover::EYES_DEG.map(f64::from)),
+        ("COVER_SUNS_DEG", &cover::SUNS_DEG.map(f64::from)),
+        ("LEAF_SOFT", &cover::LEAF_SOFT.map(f64::from)),
+        ("TRANSLUCENT", &f64::from(cover::TRANSLUCENT)),
+        ("OWN_LEAVES", &f64::from(cover::OWN_LEAVES)),
         ("CANOPY_ROW", &(CANOPY as i32)),
         ("CANOPY_LAYERS", &(CANOPY_LAYERS as i32)),
         ("CANOPY_LAYER_ROWS", &(CANOPY_LAYER_ROWS as i32)),
