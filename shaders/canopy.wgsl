@@ -15,6 +15,8 @@ struct CanopyLayer {
     casts: f32,
     neighbours: f32,
     height_m: f32,
+    // Light of the sun and of the sky on what is seen here, factors on the mean
+    relief: vec2f,
     // Biome, and first row of the population
     at: vec2<i32>,
 }
@@ -33,8 +35,6 @@ struct Canopy {
     floor: f32,
     // Distance over height of the ray to the eye
     eye_tangent: f32,
-    // Light of crowns that face the sun or turn away, a factor of mean 1
-    relief: f32,
 }
 
 // What decides about the density at a pixel.
@@ -46,11 +46,14 @@ struct CanopyPlace {
     moisture: f32,
     distance_m: f32,
     rel_m: vec3f,
-    // Width of a pixel on the ground
+    // Width of a pixel on the ground, the mean of its sides
     footprint_m: f32,
-    // Direction to the sun along the ground, as long as the cosine of its elevation
-    sun_along: vec3f,
+    // Normal of the ground; direction to the eye
+    n: vec3f,
+    v: vec3f,
 }
+
+#include "crowns.wgsl"
 
 // As in src/life/suitability.rs.
 fn between(x: f32, from_x: f32, to_x: f32, softness: f32) -> f32 {
@@ -70,61 +73,73 @@ fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
         * between(place.temperature_c, climate.z, climate.w, SOFT_C);
 }
 
-// How much darker the creases between crowns are than their tops: a factor from 1 - CREASES to 1 + CREASES.
-const CREASES: f32 = 0.65;
+// Strength of the mottling of stands, and period of its noise in widths of a crown.
+const STANDS: f32 = 0.18;
+const STAND_WIDTHS: f32 = 24.0;
 
-// Crowns at a pixel, mean 0, about -1 to 1: the height of their tops (x) and the rise from here towards the sun (y).
-fn crown_noise(tile_m: f32, place: CanopyPlace) -> vec2f {
+// Stands of a population: a factor of mean 1 on its light.
+fn stands(width_m: f32, place: CanopyPlace) -> f32 {
+    let tile_m = WRAP_FAR_M / round(WRAP_FAR_M / (STAND_WIDTHS * width_m));
     let lod = log2(max(place.footprint_m, 1e-4) * NOISE_TILE_SIDE / tile_m);
     let share = 1.0 - smoothstep(3.0, 5.5, lod);
-    if share <= 0.0 { return vec2f(0.0); }
-    let at = (body.eye_wrap_far_m + place.rel_m).yzx;
-    let fine = at / tile_m;
-    let height = textureSampleLevel(noise_tile, repeated, fine, max(lod, 0.0)).r;
-    let aside = textureSampleLevel(noise_tile, repeated, fine + 0.05 * place.sun_along.yzx, max(lod, 0.0)).r;
-    // Two periods without a common measure: no repetition shows. Both divide the wrapped position.
-    let coarse = at / (WRAP_FAR_M / round(WRAP_FAR_M / (2.73 * tile_m)));
-    let groups = textureSampleLevel(noise_tile, repeated, coarse.zxy, max(lod - 1.45, 0.0)).r;
-    return share * vec2f(1.3 * height + 0.7 * groups - 1.0, aside - height);
+    if share <= 0.0 { return 1.0; }
+    let at = (body.eye_wrap_far_m + place.rel_m).yzx / tile_m;
+    return 1.0 + STANDS * share * (2.0 * textureSampleLevel(noise_tile, repeated, at, max(lod, 0.0)).r - 1.0);
 }
 
-// Adds the layers of a biome, the highest first.
+// Adds the layers of a biome, the highest first. Single crowns are those of the layer that covers most.
 fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, place: CanopyPlace) {
     let count = i32(biome_param(id, 5).w);
     var end = select(0, (*canopy).ends.x, number == 1);
-    if count > 0 {
-        let noise = crown_noise(biome_param(id, CANOPY_ROW + 4).x, place);
-        if number == 0 { (*canopy).relief = max((1.0 + CREASES * noise.x) * (1.0 - 2.0 * noise.y), 0.1); }
-        var open = 1.0;
-        for (var i = 0; i < count; i++) {
-            let row = CANOPY_ROW + i * CANOPY_LAYER_ROWS;
-            let density = canopy_density(id, row, place);
-            if density <= 0.0 { continue; }
-            let color = biome_param(id, row);
-            let shape = biome_param(id, row + 1);
-            let kind = biome_param(id, row + 4);
-            let areas = density * (1.0 + (0.25 + 0.75 * kind.y) * noise.x) * vec2f(color.w, shape.x);
-            // As in src/life/scenery.rs.
-            let drawn = saturate1((1.0 - place.distance_m / max(shape.w, 1e-3)) / (1.0 - FULL_SHARE));
-            let rest = exp(-(1.0 - drawn) * (areas.x + areas.y * (*canopy).eye_tangent));
-            let size = biome_param(id, row + 5).zw;
-            (*canopy).layers[end] =
-                CanopyLayer(color.rgb, share * open * (1.0 - rest), areas, kind.w, size.x, size.y, vec2<i32>(id, row));
-            open *= rest;
-            end += 1;
+    var densities = array<f32, CANOPY_LAYERS>();
+    var most = 0;
+    var most_seen = 0.0;
+    var open = 1.0;
+    for (var i = 0; i < count; i++) {
+        let row = CANOPY_ROW + i * CANOPY_LAYER_ROWS;
+        densities[i] = canopy_density(id, row, place);
+        let rest = exp(-densities[i] * biome_param(id, row).w);
+        if open * (1.0 - rest) > most_seen {
+            most = i;
+            most_seen = open * (1.0 - rest);
         }
-        (*canopy).floor -= share * (1.0 - open);
+        open *= rest;
     }
+    open = 1.0;
+    for (var i = 0; i < count && most_seen > 0.0; i++) {
+        if densities[i] <= 0.0 { continue; }
+        let row = CANOPY_ROW + i * CANOPY_LAYER_ROWS;
+        let color = biome_param(id, row);
+        let shape = biome_param(id, row + 1);
+        let kind = biome_param(id, row + 4);
+        let size = biome_param(id, row + 5).zw;
+        let areas = densities[i] * vec2f(color.w, shape.x);
+        // As in src/life/scenery.rs.
+        let drawn = saturate1((1.0 - place.distance_m / max(shape.w, 1e-3)) / (1.0 - FULL_SHARE));
+        var rest = exp(-(1.0 - drawn) * (areas.x + areas.y * (*canopy).eye_tangent));
+        var relief = vec2f(1.0);
+        if i == most && drawn < 1.0 {
+            let left = (1.0 - drawn) * densities[i];
+            let crowns = crowns_seen(kind.x, size.y, color.w, shape.x, left, place, body.suns[0].dir);
+            rest = mix(rest, 1.0 - crowns.hit, crowns.clear);
+            relief = mix(vec2f(1.0), crowns.relief, crowns.clear) * stands(kind.x, place);
+        }
+        (*canopy).layers[end] = CanopyLayer(
+            color.rgb, share * open * (1.0 - rest), areas, kind.w, size.x, size.y, relief, vec2<i32>(id, row),
+        );
+        open *= rest;
+        end += 1;
+    }
+    (*canopy).floor -= share * (1.0 - open);
     if number == 0 { (*canopy).ends = vec2<i32>(end); } else { (*canopy).ends.y = end; }
     (*canopy).shares[number] = share;
 }
 
-// Canopy of a pixel. `ids`, `shares`: biomes and their shares. `v`: direction to the eye, `n`: normal of the ground.
-fn canopy_at(ids: vec2<i32>, shares: vec2f, n: vec3f, v: vec3f, place: CanopyPlace) -> Canopy {
+// Canopy of a pixel. `ids`, `shares`: biomes and their shares.
+fn canopy_at(ids: vec2<i32>, shares: vec2f, place: CanopyPlace) -> Canopy {
     var out: Canopy;
     out.floor = 1.0;
-    out.relief = 1.0;
-    out.eye_tangent = ray_tangent(dot(n, v));
+    out.eye_tangent = ray_tangent(dot(place.n, place.v));
     for (var i = 0; i < CANOPY_BIOMES; i++) {
         if ids[i] >= 0 && shares[i] > 0.004 { add_canopy(&out, i, ids[i], shares[i], place); }
     }
@@ -207,7 +222,8 @@ fn canopy_radiance(canopy: Canopy, sunlight: vec3f, sky: vec3f, sun_cosine: f32,
         let closed = layer.casts * (1.0 - exp(-layer.areas.x));
         let more = mix(TOPS_FROM_ABOVE, mix(TOPS_ASLANT, TOPS_AGAINST, rays.against), saturate1(rays.eye_deg / COVER_EYES_DEG.y));
         let light = object_light(layer.at, rays) * (1.0 + closed * more);
-        sum += layer.seen * layer.albedo * (sunlight * (sun * canopy.relief * light.x) + sky * (open * light.y));
+        let of_sun = sunlight * (sun * layer.relief.x * light.x);
+        sum += layer.seen * layer.albedo * (of_sun + sky * (open * layer.relief.y * light.y));
     }
     return sum / PI;
 }

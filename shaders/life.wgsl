@@ -1,7 +1,7 @@
 // Objects that stand on the ground: plants, stones. Opaque meshes, drawn by instance.
 #include "object_shadow.wgsl"
 #include "neighbours.wgsl"
-#include "math.wgsl"
+#include "life_material.wgsl"
 #include "life_instance.wgsl"
 
 @group(1) @binding(0) var<storage, read> instances: array<Instance>;
@@ -25,28 +25,17 @@ struct Surface {
     @location(3) look: vec2f,
     @location(4) @interpolate(flat) sun: vec4f,
     @location(5) @interpolate(flat) sky: vec3f,
-    // Position in the form; strength of the mottling
-    @location(6) mottle: vec4f,
-    // Way towards the sun within the object's own leaves, which `look` already darkens
-    @location(7) @interpolate(flat) own_m: f32,
+    // Place in the form, metres, moved by another way in each object; strength of the mottling
+    @location(6) place_m: vec4f,
+    @location(7) @interpolate(flat) size_m: f32,
     // Share of the sun's light that neighbours leave, where no map of shadows tells
     @location(8) @interpolate(flat) among: f32,
     @location(9) @interpolate(flat) level: f32,
+    @location(10) @interpolate(flat) material: u32,
 }
 
-fn lattice_value(cell: vec3i) -> f32 { return unit_from_hash(hash3(vec3u(cell))).x; }
-
-// Smooth noise of mean 0.5 with cells of length 1.
-fn lattice_noise(p: vec3f) -> f32 {
-    let cell = vec3i(floor(p));
-    let f = smoothstep(vec3f(0.0), vec3f(1.0), p - floor(p));
-    var rows: array<f32, 4>;
-    for (var i = 0; i < 4; i++) {
-        let at = cell + vec3i(0, i & 1, i >> 1u);
-        rows[i] = mix(lattice_value(at), lattice_value(at + vec3i(1, 0, 0)), f.x);
-    }
-    return mix(mix(rows[0], rows[1], f.y), mix(rows[2], rows[3], f.y), f.z);
-}
+// Spread of the colour of leaves from one object to the next: some are yellower.
+const HUES: vec3f = vec3f(0.22, 0.07, -0.12);
 
 fn turned(q: vec4f, v: vec3f) -> vec3f {
     return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
@@ -68,7 +57,10 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     out.rel_m = instance.foot_rel_m + at_m;
     out.position = body.clip_from_rel_m * vec4f(out.rel_m, 1.0);
     out.normal = turned(turn, in.normal.xyz);
-    out.albedo = mix(first.rgb * first.rgb, second.rgb * second.rgb, in.look.x);
+    // The phase goes with the rank, by which objects thin out: hues do not.
+    let hue = fract(second.a * 157.7) - 0.5;
+    let hues = 1.0 + select(0.0, 2.0 * hue, instance.material >= LEAFY) * HUES;
+    out.albedo = mix(first.rgb * first.rgb, second.rgb * second.rgb * hues, in.look.x);
     out.look = in.look.xy;
     out.sun = vec4f(light.sun, light.visible);
     out.sky = light.sky;
@@ -77,9 +69,10 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
         instance.neighbours, ray_tangent(dot(body.eye_up, sun)), dot(normalize(-out.rel_m), sun),
     );
     out.level = in.look.w;
-    out.own_m = OWN_LEAVES * in.look.x * instance.size_m;
+    out.size_m = instance.size_m;
+    out.material = instance.material;
     // Coarse levels are smooth where fine ones have single leaves.
-    out.mottle = vec4f(in.position * 11.0 + 64.0 * second.a, in.look.w * in.look.x);
+    out.place_m = vec4f((in.position + 6.0 * second.a) * instance.size_m, in.look.w * in.look.x);
     return out;
 }
 
@@ -89,15 +82,36 @@ struct Output {
     @location(1) surface: vec4f,
 }
 
+// Distance within which leaves before the eye dissolve, metres.
+const LENS_M: f32 = 1.2;
+
+// Noise of mean 0.5 over the pixels of the picture (interleaved gradient noise, Jimenez 2014).
+fn pixel_noise(at: vec2f) -> f32 { return fract(52.9829189 * fract(dot(at, vec2f(0.06711056, 0.00583715)))); }
+
+// Normal of a surface that rises over that of the mesh (Mikkelsen, Bump Mapping Unparametrized Surfaces on the GPU,
+// 2010). `along`, `rise`: change of the place and of the height from one pixel to the next.
+fn raised(n: vec3f, along: mat2x3f, rise: vec2f) -> vec3f {
+    let right = cross(along[1], n);
+    let up = cross(n, along[0]);
+    let area = dot(along[0], right);
+    let slope = sign(area) * (rise.x * right + rise.y * up);
+    return normalize(abs(area) * n - clamp(slope, vec3f(-1.5 * abs(area)), vec3f(1.5 * abs(area))));
+}
+
 // Albedo of the ground around, which lights the undersides of objects.
 const GROUND_ALBEDO: f32 = 0.25;
 
 @fragment
 fn fragment(in: Surface) -> Output {
     let up = normalize(body.eye_km + in.rel_m * 0.001);
-    let n = normalize(in.normal);
     let l = body.suns[0].dir;
     let leaf = in.look.x;
+    let distance_m = length(in.rel_m);
+    let material = object_material(in.material, leaf, in.place_m.xyz, in.size_m, distance_m * frame.pixel_rad);
+    let along = mat2x3f(dpdx(in.rel_m), dpdy(in.rel_m));
+    let n = raised(normalize(in.normal + material.tilt), along, vec2f(dpdx(material.height_m), dpdy(material.height_m)));
+    let noise = pixel_noise(in.position.xy);
+    if material.gap > 0.5 || (leaf > 0.5 && distance_m < LENS_M * (0.4 + 0.6 * noise)) { discard; }
     let facing = dot(n, l);
     // Light is spread within a crown: its edge between light and shade is soft.
     let soft = leaf * mix(LEAF_SOFT.x, LEAF_SOFT.y, in.level);
@@ -106,9 +120,9 @@ fn fragment(in: Surface) -> Output {
     // What sees little of the sky is shaded by the rest of the object.
     let lit = (front + behind) * smoothstep(0.0, 0.75, in.look.y);
     let open = (0.5 + 0.5 * dot(n, up)) * in.look.y;
-    let mottled = 1.0 + in.mottle.w * 1.3 * (lattice_noise(in.mottle.xyz) - 0.5);
-    let albedo = in.albedo * mottled;
-    var shade = object_shade(in.rel_m + l * in.own_m, n);
+    let mottled = 1.0 + in.place_m.w * 1.3 * (lattice_noise(in.place_m.xyz * (11.0 / in.size_m)) - 0.5);
+    let albedo = in.albedo * material.tint * mottled;
+    var shade = object_shade(in.rel_m + l * (OWN_LEAVES * leaf * in.size_m), n);
     shade.sun -= (1.0 - shade.known.x) * (1.0 - in.among);
     let sky = in.sky * mix(1.0, shade.sky, 1.0 - 0.6 * leaf);
     // The ground around is in the sun as far as crowns leave it the sky, also where the object shades itself.

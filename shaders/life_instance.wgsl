@@ -15,7 +15,8 @@ struct Instance {
     horizon: vec2u,
     // Area of neighbours that shade the object, for each area of ground
     neighbours: f32,
-    padding: u32,
+    // Kind of material: src/render/life/material.rs
+    material: u32,
 }
 
 // Light on an object: irradiance of the sun and of the sky.

@@ -334,11 +334,12 @@ fn lit(ground: Material, canopy: Canopy, facet: Facet, from_ground: Visibility, 
     let open_sky = sky_irradiance(facet.altitude_km, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
     let open_sun = sunlight * (clouds.straight * from_ground.star);
     let shadow = clouds.straight * from_ground.star * shade.sun;
-    var sky = open_sky + sunlight * THROUGH_LEAVES * (1.0 - shade.sky);
+    // Crowns hide the sky, and let some of the sun through in its place.
+    var sky = open_sky * shade.sky + sunlight * THROUGH_LEAVES * (1.0 - shade.sky);
     // Light goes to and fro between ground and fog.
     let again = ground.albedo * clouds.returned;
     sky += (sky + sunlight * max(sun_mu, 0.0) * shadow) * again / (1.0 - again);
-    let open = saturate1(0.5 + 0.5 * dot(n, facet.up) * facet.area) * from_ground.sky * shade.sky;
+    let open = saturate1(0.5 + 0.5 * dot(n, facet.up) * facet.area) * from_ground.sky;
     // Light reflected by the surrounding ground to a slope that does not see the whole sky.
     let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
     let glint = mirrored(n, facet.v, sun, ground.roughness, ground.specular);
@@ -393,14 +394,12 @@ fn splashed(over_sea_m: f32, spread_m: f32, variation: f32) -> f32 {
 
 // What decides about the objects at a pixel. `footprint_m`: width of the pixel, the mean of its sides.
 fn canopy_place(
-    in: Ground, climate: Climate, n: vec3f, up: vec3f, distance_m: f32, footprint_m: f32,
+    in: Ground, climate: Climate, n: vec3f, up: vec3f, v: vec3f, distance_m: f32, footprint_m: f32,
 ) -> CanopyPlace {
-    let sun = body.suns[0].dir;
     let above_m = in.height_m - select(0.0, body.sea_level_km * 1000.0, body.has_sea != 0u);
     let slope_deg = degrees(acos(clamp(dot(n, up), -1.0, 1.0)));
     return CanopyPlace(
-        slope_deg, above_m, climate.temperature_c, climate.moisture, distance_m, in.rel_m, footprint_m,
-        sun - up * dot(sun, up),
+        slope_deg, above_m, climate.temperature_c, climate.moisture, distance_m, in.rel_m, footprint_m, n, v,
     );
 }
 
@@ -443,10 +442,10 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     }
     let wet = pixel_ground.water.x;
     canopy_normal = n;
-    let place = canopy_place(in, climate, n, up, distance_m, sqrt(length(rel_x) * length(rel_y)));
+    let place = canopy_place(in, climate, n, up, v, distance_m, sqrt(length(rel_x) * length(rel_y)));
     // Nothing stands in a river: through its water one sees the bed.
     let on_land = 1.0 - smoothstep(0.4, 0.9, wet);
-    let canopy = canopy_at(ground.biomes, on_land * ground.shares, n, v, place);
+    let canopy = canopy_at(ground.biomes, on_land * ground.shares, place);
     if frame.debug_view == VIEW_ALBEDO {
         let albedo = canopy_albedo(canopy, ground.albedo);
         return Shaded(mix(albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);

@@ -13,13 +13,6 @@ pub(crate) const LAYERS: usize = 4;
 pub(crate) const LAYER_ROWS: usize = 7;
 /// Rows of a biome.
 pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
-/// Noise of the canopy: its shortest and its longest period, metres. Periods are powers of two, which divide the wrapped
-/// position.
-const FINEST_TILE_M: f64 = 0.25;
-const WIDEST_TILE_M: f64 = 1024.0;
-/// Period of the noise in widths of an object. Features of the noise are a quarter of a period wide.
-const WIDTHS_PER_TILE: f64 = 3.0;
-
 /// The canopy of a population.
 #[derive(Clone, Debug, PartialEq)]
 struct Layer {
@@ -41,7 +34,6 @@ impl CanopyRows {
         let layers = layers.filter_map(|((population, layer), reach_m)| Some((population, layer?, *reach_m)));
         let layers = layers.map(|(population, layer, reach_m)| {
             let ([r, g, b], cover) = (layer.color, &layer.cover);
-            let tile_m = (WIDTHS_PER_TILE * layer.width_m).log2().round().exp2().clamp(FINEST_TILE_M, WIDEST_TILE_M);
             let shore_m = if population.in_water { -1e6 } else { population.shore_m };
             let texels = [
                 [r, g, b, layer.top],
@@ -53,7 +45,7 @@ impl CanopyRows {
                     population.temperature_from_c,
                     population.temperature_to_c,
                 ],
-                [tile_m, population.clumping, shore_m, layer.casting],
+                [layer.width_m, population.clumping, shore_m, layer.casting],
                 [cover.sun[0][0], cover.sun[0][1], shading(&layer), layer.height_m],
                 [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
             ];

@@ -2,17 +2,20 @@
 //!
 //! - `canopy`: what of them is seen from afar, in the parameters of biomes (`canopy.wgsl`)
 //! - `models`: meshes on the GPU
+//! - `material`: their materials (`life_material.wgsl`)
 //! - `view`: which objects a view draws, at which level of detail
 //! - `shadow`: their shadows (`life_shadow.wgsl`)
 //! - `pass`: their light (`life_light.wgsl`, compute) and their drawing (`life.wgsl`)
 
 mod canopy;
+mod material;
 mod models;
 mod pass;
 mod shadow;
 mod view;
 
 pub(crate) use canopy::{CanopyRows, LAYER_ROWS as CANOPY_LAYER_ROWS, LAYERS as CANOPY_LAYERS, ROWS as CANOPY_ROWS};
+pub(crate) use material::Material;
 pub(crate) use models::LifeModels;
 pub(crate) use pass::{LifePass, LifeTargets};
 pub(crate) use shadow::{CASCADES, Cascades, ShadowMap};

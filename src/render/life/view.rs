@@ -1,6 +1,7 @@
 //! The objects that a view draws: culled, thinned out by distance, each at the level of detail that its size in the
 //! picture needs.
 
+use super::material::Material;
 use super::{CASCADES, Cascades, LifeModels, canopy};
 use crate::life::form::LEVELS;
 use crate::life::scenery::{SceneryCell, SceneryObject, share_at};
@@ -29,7 +30,7 @@ pub(super) struct Instance {
     layer: u16,
     axis: u16,
     neighbours: f32,
-    padding: u32,
+    material: u32,
 }
 
 /// Instances of one mesh.
@@ -287,7 +288,7 @@ impl Look<'_> {
             layer: self.shade.as_ref().map_or(NO_LAYER, |shade| shade.at.layer as u16),
             axis: self.axis,
             neighbours: self.neighbours,
-            padding: 0,
+            material: Material::of(&population.form) as u32,
         }
     }
 }

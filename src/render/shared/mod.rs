@@ -12,7 +12,7 @@ pub use constants::{MAX_POINTS, MAX_SUNS};
 pub(crate) use structs::*;
 
 use super::biome_table::{CANOPY, ROCK, RULES, WRAP_FAR_M};
-use super::life::{CANOPY_LAYER_ROWS, CANOPY_LAYERS};
+use super::life::{CANOPY_LAYER_ROWS, CANOPY_LAYERS, Material};
 use super::material_maps::{PATTERN_ROUGHNESS, PATTERN_STEEPEST};
 use super::scene::DebugView;
 use super::tone::{self, Tone};
@@ -96,6 +96,9 @@ pub(crate) fn text() -> String {
         ("COVER_SUNS_DEG", &cover::SUNS_DEG.map(f64::from)),
         ("LEAF_SOFT", &cover::LEAF_SOFT.map(f64::from)),
         ("TRANSLUCENT", &f64::from(cover::TRANSLUCENT)),
+        ("ROCK", &(Material::Rock as u32)),
+        ("LEAFY", &(Material::Leafy as u32)),
+        ("NEEDLED", &(Material::Needled as u32)),
         ("OWN_LEAVES", &f64::from(cover::OWN_LEAVES)),
         ("CANOPY_ROW", &(CANOPY as i32)),
         ("CANOPY_LAYERS", &(CANOPY_LAYERS as i32)),

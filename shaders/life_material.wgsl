@@ -1,0 +1,111 @@
+// Material of objects near the eye: furrows of bark, grain and cracks of rock, single leaves. All are functions of the
+// place in the form, in metres, with the mean of what the mesh has; each fades as it becomes narrower than a pixel.
+#include "math.wgsl"
+#include "shared.wgsl"
+
+// Period of furrows around a trunk and along it, metres; depth of a furrow as a share of it.
+const FURROW_M: vec2f = vec2f(0.13, 0.65);
+const FURROW_DEPTH: f32 = 0.15;
+// Periods of the grain of rock, metres, and its height as a share of the period.
+const GRAIN_M: vec3f = vec3f(0.45, 0.13, 0.035);
+const GRAIN_HEIGHT: f32 = 0.10;
+// Width of a leaf, metres.
+const LEAF_M: f32 = 0.09;
+
+struct ObjectMaterial {
+    // Factor on the albedo
+    tint: vec3f,
+    // Height of the surface over that of the mesh, metres
+    height_m: f32,
+    // Tilt of a leaf against its twig
+    tilt: vec3f,
+    // Share of a leaf that is gap
+    gap: f32,
+}
+
+fn lattice_value(cell: vec3i) -> f32 { return unit_from_hash(hash3(vec3u(cell))).x; }
+
+// Smooth noise of mean 0.5 with cells of length 1.
+fn lattice_noise(p: vec3f) -> f32 {
+    let cell = vec3i(floor(p));
+    let f = smoothstep(vec3f(0.0), vec3f(1.0), p - floor(p));
+    var rows: array<f32, 4>;
+    for (var i = 0; i < 4; i++) {
+        let at = cell + vec3i(0, i & 1, i >> 1u);
+        rows[i] = mix(lattice_value(at), lattice_value(at + vec3i(1, 0, 0)), f.x);
+    }
+    return mix(mix(rows[0], rows[1], f.y), mix(rows[2], rows[3], f.y), f.z);
+}
+
+// How well a pattern of a period is seen at a width of the pixel.
+fn clear_at(period_m: f32, pixel_m: f32) -> f32 { return 1.0 - smoothstep(0.15, 0.5, pixel_m / period_m); }
+
+// Furrows of one width: 0 in their depth, 1 on the plates between them.
+fn furrows(q: vec3f) -> f32 { return smoothstep(0.02, 0.40, abs(lattice_noise(q) - 0.5) * 2.0); }
+
+fn bark(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
+    var out = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
+    let bend = 0.08 * (lattice_noise(p_m * 3.1) - 0.5);
+    for (var i = 0; i < 2; i++) {
+        let period_m = FURROW_M * select(1.0, 0.4, i == 1);
+        let clear = clear_at(period_m.x, pixel_m);
+        if clear <= 0.0 { break; }
+        let height = furrows((p_m + bend) / period_m.xxy + 31.0 * f32(i)) - 0.47;
+        out.tint *= 1.0 + clear * select(0.8, 0.6, i == 1) * height;
+        out.height_m += clear * FURROW_DEPTH * period_m.x * height;
+    }
+    return out;
+}
+
+fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
+    var out = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
+    var shade = 1.0;
+    for (var i = 0; i < 3; i++) {
+        let period_m = min(GRAIN_M[i], 0.5 * size_m / f32(1 + 2 * i));
+        let clear = clear_at(period_m, pixel_m);
+        if clear <= 0.0 { break; }
+        let noise = lattice_noise(p_m / period_m + 17.0 * f32(i)) - 0.5;
+        // Cracks between grains of the widest period.
+        let crack = select(0.0, 1.0 - smoothstep(0.0, 0.07, abs(noise)), i == 0);
+        shade *= 1.0 + clear * (0.55 * noise - 0.35 * (crack - 0.17));
+        out.height_m += clear * GRAIN_HEIGHT * period_m * (noise - 0.25 * crack);
+    }
+    // Lichen and weather stain the stone.
+    let stain = lattice_noise(p_m / (0.35 * max(size_m, 0.6)) + 5.0) - 0.5;
+    out.tint = shade * (1.0 + stain * vec3f(0.30, 0.22, 0.05));
+    return out;
+}
+
+// Single leaves on the blades of a crown: cells about points, one for each leaf.
+fn leaves(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
+    var out = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
+    let clear = clear_at(LEAF_M, pixel_m);
+    if clear <= 0.0 { return out; }
+    let q = p_m / LEAF_M;
+    let first = floor(q - 0.5);
+    var nearest = 9.0;
+    var found = vec3f(0.5);
+    for (var i = 0; i < 8; i++) {
+        let cell = first + vec3f(f32(i & 1), f32((i >> 1u) & 1), f32(i >> 2u));
+        let random = unit_from_hash(hash3(vec3u(vec3i(cell))));
+        let away = q - cell - 0.25 - 0.5 * random;
+        let distance = dot(away, away);
+        if distance < nearest {
+            nearest = distance;
+            found = random;
+        }
+    }
+    let edge = smoothstep(0.10, 0.45, nearest);
+    out.tint = 1.0 + clear * (vec3f(0.45, 0.40, 0.25) * (found.x - 0.5) + 0.25 * (0.4 - edge));
+    out.tilt = clear * (found - 0.5);
+    out.gap = clear * smoothstep(0.10, 0.30, nearest);
+    return out;
+}
+
+// `leaf`: share of the second colour. `p_m`: place in the form.
+fn object_material(kind: u32, leaf: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
+    if kind == ROCK { return rock(p_m, size_m, pixel_m); }
+    if kind >= LEAFY && leaf < 0.5 { return bark(p_m, pixel_m); }
+    if kind == LEAFY { return leaves(p_m, pixel_m); }
+    return ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
+}
