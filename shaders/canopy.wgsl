@@ -220,7 +220,9 @@ fn canopy_radiance(canopy: Canopy, sunlight: vec3f, sky: vec3f, sun_cosine: f32,
         let open = mix(1.0, exp(-above.x), 1.0 - UNDER_CROWNS);
         // Of crowns that close, one sees the tops, which have more light.
         let closed = layer.casts * (1.0 - exp(-layer.areas.x));
-        let more = mix(TOPS_FROM_ABOVE, mix(TOPS_ASLANT, TOPS_AGAINST, rays.against), saturate1(rays.eye_deg / COVER_EYES_DEG.y));
+        let tops = mix(TOPS_FROM_ABOVE, mix(TOPS_ASLANT, TOPS_AGAINST, rays.against), saturate1(rays.eye_deg / COVER_EYES_DEG.y));
+        // At a flat angle one sees the sides again.
+        let more = tops * smoothstep(90.0, COVER_EYES_DEG.y, rays.eye_deg);
         let light = object_light(layer.at, rays) * (1.0 + closed * more);
         let of_sun = sunlight * (sun * layer.relief.x * light.x);
         sum += layer.seen * layer.albedo * (of_sun + sky * (open * layer.relief.y * light.y));

@@ -20,6 +20,8 @@ const BEND_CELLS: f32 = 48.0;
 const BEND: f32 = 1.6;
 // Way of a dome within its cell, in cells.
 const JITTER: f32 = 0.65;
+// Cosine to the normal of the ground below which rays are taken as steeper: flatter ones would see the highest tops alone.
+const LEAST_MU: f32 = 0.17;
 // Way of the ray from one step to the next, at the most, in cells.
 const STEP_CELLS: f32 = 0.4;
 
@@ -83,7 +85,9 @@ fn crowns_seen(
     let n = place.n;
     let v = place.v;
     let across = width_m / max(place.distance_m * frame.pixel_rad, 1e-6);
-    let clear = smoothstep(CROWN_PIXELS.x, CROWN_PIXELS.y, across) * smoothstep(LEAST_WIDTH_M, 2.0 * LEAST_WIDTH_M, width_m);
+    let clear = smoothstep(CROWN_PIXELS.x, CROWN_PIXELS.y, across)
+        * smoothstep(LEAST_WIDTH_M, 2.0 * LEAST_WIDTH_M, width_m)
+        * smoothstep(0.2 * LEAST_MU, LEAST_MU, dot(n, v));
     var out = CrownsSeen(clear, 0.0, vec2f(1.0));
     if clear <= 0.0 { return out; }
     // As many domes as objects, each as wide as one.
@@ -102,7 +106,7 @@ fn crowns_seen(
     let bent_too = textureSampleLevel(noise_tile, repeated, at_m.zxy / bend_m, 0.0).r;
     let foot = at_m * axes / cell_m + BEND * vec2f(bent, bent_too);
     // Cells that a ray passes while it rises by a metre.
-    let mu = max(dot(n, v), 0.03);
+    let mu = max(dot(n, v), LEAST_MU);
     let to_eye = (v - n * dot(n, v)) * axes / (mu * cell_m);
     let steps = select(10, 5, frame.pattern_quality == 0.0);
     let top_m = 1.105 * height_m;
@@ -118,15 +122,14 @@ fn crowns_seen(
     }
     if dome.x < z {
         // The ray is below the tops, or on the ground.
-        out.hit = 1.0 - exp(-density * side * (z / height_m) / mu);
-        dome = vec4f(z, 0.0, 0.0, 0.5);
-    } else {
-        out.hit = 1.0;
-        let back = saturate1((dome.x - z) / max(dome.x - z - over_m, 1e-4));
-        z += step_m * back;
-        let found = dome_at(foot + to_eye * z, field);
-        if found.x > 0.0 { dome = found; }
+        out.hit = 1.0 - exp(-density * side * max(z / height_m, 0.0) / mu);
+        return out;
     }
+    out.hit = 1.0;
+    let back = saturate1((dome.x - z) / max(dome.x - z - over_m, 1e-4));
+    z += step_m * back;
+    let found = dome_at(foot + to_eye * z, field);
+    if found.x > 0.0 { dome = found; }
     // Domes on a lattice cover more than objects that are spread by chance.
     let tangent = sqrt(max(1.0 - mu * mu, 0.0)) / mu;
     let by_domes = 1.3 * density * PI * field.radius * field.radius + density * side * tangent;

@@ -40,7 +40,7 @@ pub(super) struct Look {
     pub sway: f32,
 }
 
-/// Request for a mesh: how fine, from which seed, and how full.
+/// Request for a mesh: how fine, from which seed, how full and how flat.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Detail {
     /// Level of detail: 0 = near.
@@ -49,6 +49,8 @@ pub(super) struct Detail {
     pub seed: u32,
     /// Factor on the area of leaves (or the width of solid parts) that makes levels cover the same.
     pub fill: f32,
+    /// Factor on the width of parts whose height is divided by it: more cover from above and no less from the side.
+    pub flat: f32,
 }
 
 impl Detail {
@@ -60,6 +62,20 @@ impl Detail {
     /// Factor on lengths that changes areas by `fill`.
     pub(super) fn swell(&self) -> f32 {
         self.fill.sqrt()
+    }
+
+    /// Vector within a part, wider and lower by `flat`.
+    pub(super) fn flatten(&self, v: Vec3) -> Vec3 {
+        v * Vec3::new(self.flat, self.flat, 1.0 / self.flat)
+    }
+
+    /// Flattening of the part that the corners from `start` on make; the pivot stays.
+    pub(super) fn flatten_part(&self, mesh: &mut Mesh, start: usize, pivot: Vec3) {
+        // Rounding must not move a part that keeps its shape.
+        let part = if self.flat == 1.0 { &mut [] } else { &mut mesh.vertices[start..] };
+        for v in part {
+            v.position = pivot + self.flatten(v.position - pivot);
+        }
     }
 }
 

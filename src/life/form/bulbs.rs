@@ -102,7 +102,9 @@ pub(super) fn build(form: &Bulbs, detail: &Detail) -> Mesh {
         }
     }
     for (one, &size) in all.iter().zip(&sizes) {
+        let start = mesh.vertices.len();
         bead(&mut mesh, one, size, detail.swell());
+        detail.flatten_part(&mut mesh, start, one.at);
     }
     mesh
 }

@@ -1,6 +1,6 @@
 //! Clumps: rough solids around many points, for crowns that are seen from far away.
 
-use super::build::{Look, Mesh};
+use super::build::{Detail, Look, Mesh};
 use super::math::{mix, smooth, turn};
 use super::random::Random;
 use super::sphere;
@@ -21,9 +21,10 @@ fn spread(points: &[Vec3]) -> (Vec3, Vec3) {
     (middle, Vec3::new(square.x.sqrt(), square.y.sqrt(), square.z.sqrt()).max(Vec3::splat(0.005)))
 }
 
-/// Drawing of a blob of 20 triangles around points; `swell` is a factor on its size.
-pub(super) fn draw(mesh: &mut Mesh, points: &[Vec3], swell: f32, seed: u32) {
-    let mut random = Random::new(seed, 900);
+/// Drawing of a blob of 20 triangles around points; `core` is a factor on its size.
+pub(super) fn draw(mesh: &mut Mesh, points: &[Vec3], core: f32, detail: &Detail) {
+    let mut random = Random::new(detail.seed, 900);
+    let swell = core * detail.swell();
     let (middle, wide) = spread(points);
     let inner: Vec<Vec3> = points.iter().map(|&p| (p - middle) / wide).collect();
     let usual = percentile(inner.iter().map(|q| q.length()).collect(), 0.7).unwrap_or(1.0);
@@ -44,6 +45,9 @@ pub(super) fn draw(mesh: &mut Mesh, points: &[Vec3], swell: f32, seed: u32) {
         let look = Look { part: 1.0, light, sway: 0.25 + 0.5 * at.z.clamp(0.0, 1.0) };
         mesh.vertex(at, way + Vec3::Z * 0.3, look);
     }
+    // The top stays.
+    let top = mesh.vertices[base as usize].position;
+    detail.flatten_part(mesh, base as usize, top);
     mesh.triangles.extend(ball.triangles.iter().map(|t| t.map(|i| base + i)));
 }
 

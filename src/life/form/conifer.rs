@@ -88,13 +88,13 @@ pub(super) fn build(form: &Conifer, detail: &Detail) -> Mesh {
     let mut mesh = Mesh::default();
     trunk(&mut mesh, form, detail);
     if detail.level == 3 {
-        cones(&mut mesh, form, detail, 4, [1.0, 0.7]);
+        cones(&mut mesh, form, detail, 5, [0.95, 0.7]);
         return mesh;
     }
     let used = chosen(branches(form, detail.seed), detail);
     match detail.level {
-        1 => cones(&mut mesh, form, detail, 1, [0.13, 0.3]),
-        2 => cones(&mut mesh, form, detail, 6, [0.46, 0.38]),
+        1 => cones(&mut mesh, form, detail, 1, [0.2, 0.3]),
+        2 => cones(&mut mesh, form, detail, 6, [0.6, 0.45]),
         _ => {}
     }
     let needles = mix(0.5, 1.0, form.needles as f32);
@@ -135,8 +135,7 @@ fn trunk(mesh: &mut Mesh, form: &Conifer, detail: &Detail) {
     let shares: &[f32] = match detail.level {
         0 => &[-0.1, 0.0, 0.03, 0.1, 0.25, 0.45, 0.7, 0.97],
         1 => &[-0.1, 0.03, 0.3, 0.97],
-        2 => &[-0.1, 0.97],
-        _ => &[-0.1, 0.7],
+        _ => &[-0.1, 0.97],
     };
     let knots: Vec<Knot> = shares
         .iter()
@@ -179,7 +178,7 @@ fn spine(mesh: &mut Mesh, branch: &Branch, detail: &Detail, random: &mut Random)
     let length = way.length().max(0.01);
     let along = way.normalize_or(branch.out);
     // Far blades lie at all angles around their branch, so that they cover from the side as well.
-    let up = Vec3::Z + random.ball() * detail.pick([0.4, 0.9, 1.6, 0.0]);
+    let up = Vec3::Z + random.ball() * detail.pick([0.4, 0.9, 0.7, 0.0]);
     let across = along.cross(up).normalize_or(branch.out.cross(Vec3::Z));
     let normal = branch.out * 0.5 + Vec3::Z * 0.8 + random.ball() * 0.15;
     let width = (length * detail.pick([0.12, 0.22, 0.36, 0.0])).min(detail.pick([0.03, 0.05, 0.09, 0.0]));
@@ -187,7 +186,10 @@ fn spine(mesh: &mut Mesh, branch: &Branch, detail: &Detail, random: &mut Random)
     let push = push(branch);
     let look = Look { part: 0.9, light: detail.pick([0.6, 0.35, 0.4, 0.0]), sway: push + 0.1 };
     let tip = Look { part: 1.0, light: random.range(0.85, 1.0), sway: push + 0.3 };
+    let start = mesh.vertices.len();
     leaf::triangle(mesh, &Leaf { at: from, along, across, length, width, normal, look, tip }, 0.0);
+    // The tip stays, so that the crown keeps its outline.
+    detail.flatten_part(mesh, start, branch.at(1.0));
 }
 
 /// Place of a blade in a branch's comb.
@@ -231,7 +233,9 @@ fn needle(mesh: &mut Mesh, branch: &Branch, detail: &Detail, place: &Place, rand
     let sway = push(branch) + 0.25 * s;
     let look = Look { part: mix(0.82, 0.95, s), light: light * 0.62, sway };
     let tip = Look { part: 1.0, light, sway: sway + 0.1 };
+    let start = mesh.vertices.len();
     leaf::triangle(mesh, &Leaf { at: branch.at(s), along, across, length, width, normal, look, tip }, 0.0);
+    detail.flatten_part(mesh, start, branch.at(s));
 }
 
 /// Width of the narrowest blades of a level: about a pixel where the level is drawn.
@@ -241,7 +245,7 @@ fn finest(detail: &Detail) -> f32 {
 
 /// Factor on the width of blades that makes levels cover the same; blades stay slender.
 fn fill(detail: &Detail) -> f32 {
-    mix(1.0, detail.fill, 0.8).min(2.0)
+    mix(1.0, detail.fill, 0.8).min(2.0) * detail.pick([1.0, 1.6, 1.3, 1.0])
 }
 
 /// Share of the wind's push at a branch's foot.
@@ -267,19 +271,23 @@ fn leader(mesh: &mut Mesh, detail: &Detail) {
     }
 }
 
-/// Far levels: cones that overlap like tiers, of a share of the crown's width and with a share of the sky.
+/// Far levels: cones one above the other like tiers, of a share of the crown's width and with a share of the sky.
 fn cones(mesh: &mut Mesh, form: &Conifer, detail: &Detail, tiers: usize, [wide, light]: [f32; 2]) {
-    let (foot, sides) = (form.trunk as f32, 6);
+    let (foot, sides) = (form.trunk as f32, detail.pick([6, 6, 6, 5]));
     let swell = detail.swell() * wide;
     for t in 0..tiers {
         let low = t as f32 / tiers as f32;
-        let overlap = if tiers > 4 { 1.3 } else { 1.55 };
-        let high = if t == tiers - 1 { 1.0 } else { (t as f32 + overlap) / tiers as f32 };
+        let tall = detail.pick([1.0, 1.0, 0.8, 1.0]);
+        let high = if t == tiers - 1 { 1.0 } else { (t as f32 + tall) / tiers as f32 };
         let radius = form.crown_width as f32 * 0.5 * profile(form, low + 0.06) * swell;
         let z = |h: f32| foot + (1.0 - foot) * h;
-        let drop = radius * form.droop as f32 * 0.45;
-        let top_look = Look { part: 1.0, light: light - 0.05, sway: 0.6 * low };
-        let top = mesh.vertex(Vec3::Z * z(high), Vec3::Z, top_look);
+        // Tiers of rising branches stay steep enough to be seen from the side.
+        let drop = (radius * form.droop as f32 * 0.45).max(-0.3 * (z(high) - z(low)));
+        // The inside of the crown lies in the shade.
+        let inner = if t == tiers - 1 { 1.0 } else { 0.5 };
+        let top_look = Look { part: mix(0.7, 1.0, inner), light: light * inner, sway: 0.6 * low };
+        let (start, peak) = (mesh.vertices.len(), Vec3::Z * z(high));
+        let top = mesh.vertex(peak, Vec3::Z, top_look);
         let ring: Vec<u16> = (0..sides)
             .map(|s| {
                 let out = around(TURN * (s as f32 + 0.5 * (t % 2) as f32) / sides as f32);
@@ -292,5 +300,6 @@ fn cones(mesh: &mut Mesh, form: &Conifer, detail: &Detail, tiers: usize, [wide, 
         for s in 0..sides {
             mesh.triangle(ring[s], ring[(s + 1) % sides], top);
         }
+        detail.flatten_part(mesh, start, peak);
     }
 }

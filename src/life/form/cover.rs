@@ -45,7 +45,7 @@ impl Cover {
     /// already mixes the variant.
     pub(crate) fn new(form: &Form, seed: u32) -> Self {
         let [near, mesh] = super::extremes(form, seed);
-        let (top, side) = (sight::look_down(&near, 64), sight::look(&near));
+        let (top, side) = (sight::look_down(&near, 64), sight::look(&near).side);
         let mut out = Self { top: top.cover.into(), side: side.cover.into(), part: top.part.into(), ..Self::default() };
         for turn in 0..TURNS {
             let azimuth = TURN * (f32::from(turn) + 0.35) / f32::from(TURNS);

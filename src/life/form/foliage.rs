@@ -83,7 +83,9 @@ impl Foliage<'_> {
             let light = spot.light * random.range(0.38, 0.62);
             let look = Look { part: random.range(0.9, 1.0), light, sway: sway(at) };
             let one = Leaf { at, along, across, length: size, width: size, normal: spot.normal, look, tip: look };
+            let start = mesh.vertices.len();
             leaf::star(mesh, &one, 1, &mut random);
+            detail.flatten_part(mesh, start, at);
         }
     }
 
@@ -149,7 +151,9 @@ impl Foliage<'_> {
             let (length, width) = (size * mix(1.0, 1.5, spot.hang), size * mix(1.0, 0.6, spot.hang));
             let normal = spot.normal + random.ball() * 0.2;
             let one = Leaf { at, along, across, length, width, normal, look, tip };
+            let start = mesh.vertices.len();
             leaf::star(mesh, &one, triangles, &mut random);
+            detail.flatten_part(mesh, start, at);
         }
     }
 }

@@ -28,6 +28,11 @@ pub(super) fn exp(x: f32) -> f32 {
     libm::expf(x)
 }
 
+/// Natural logarithm.
+pub(super) fn ln(x: f32) -> f32 {
+    libm::logf(x)
+}
+
 /// Blend from `a` to `b`.
 pub(super) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t

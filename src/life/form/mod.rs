@@ -2,7 +2,7 @@
 //!
 //! - `build`, `math`, `random`: meshes, arithmetic and random numbers, the same on every machine
 //! - `tube`, `leaf`, `sphere`, `grow`, `clump`: parts that several kinds share
-//! - `sight`: what is seen from the side, for levels of detail that match
+//! - `sight`, `steer`: what is seen from the side and from above, and the search for levels of detail that match
 //! - `cover`: how much a form covers, and its light, for what is seen of many from afar
 //! - `tree`, `crown`, `foliage`, `conifer`, `palm`, `tuft`, `cushion`, `cactus`, `mushroom`: kinds of plant
 //! - `stone`, `crystal`: kinds of rock; `bulbs`, `fans`, `tendrils`: kinds of strange life
@@ -26,6 +26,7 @@ mod palm;
 mod random;
 mod sight;
 mod sphere;
+mod steer;
 mod stone;
 mod tendrils;
 #[cfg(test)]
@@ -74,14 +75,14 @@ type Builder<'a> = dyn Fn(&Detail) -> Mesh + 'a;
 /// Mesh of a form at one level of detail; `seed` already mixes the variant.
 pub fn mesh(form: &Form, seed: u32, level: usize) -> Mesh {
     let build = form.builder(seed);
-    let near = build(&Detail { level: 0, seed, fill: 1.0 }).fit();
+    let near = build(&Detail { level: 0, seed, fill: 1.0, flat: 1.0 }).fit();
     if level == 0 { near } else { matched(&*build, seed, level.min(LEVELS - 1), &sight::look(&near)) }
 }
 
 /// The nearest and the farthest mesh of a form.
 pub(super) fn extremes(form: &Form, seed: u32) -> [Mesh; 2] {
     let build = form.builder(seed);
-    let near = build(&Detail { level: 0, seed, fill: 1.0 }).fit();
+    let near = build(&Detail { level: 0, seed, fill: 1.0, flat: 1.0 }).fit();
     let far = matched(&*build, seed, LEVELS - 1, &sight::look(&near));
     [near, far]
 }
@@ -89,29 +90,31 @@ pub(super) fn extremes(form: &Form, seed: u32) -> [Mesh; 2] {
 /// Meshes of a form at all levels of detail: faster than one by one.
 pub fn meshes(form: &Form, seed: u32) -> [Mesh; LEVELS] {
     let build = form.builder(seed);
-    let near = build(&Detail { level: 0, seed, fill: 1.0 }).fit();
+    let near = build(&Detail { level: 0, seed, fill: 1.0, flat: 1.0 }).fit();
     let sight = sight::look(&near);
     let far = |level| matched(&*build, seed, level, &sight);
     let (a, b, c) = (far(1), far(2), far(3));
     [near, a, b, c]
 }
 
-/// Mesh of a coarser level that covers as much as the near one, with the same mean colours and light.
-fn matched(build: &Builder, seed: u32, level: usize, near: &sight::Sight) -> Mesh {
-    let mut fill = 1.0_f32;
-    let mut best: Option<(f32, Mesh, sight::Sight)> = None;
+/// Mesh of a coarser level that covers as much as the near one, from the side and from above, with the same mean
+/// colours and light of both views together.
+fn matched(build: &Builder, seed: u32, level: usize, near: &sight::Sights) -> Mesh {
+    let mut search = steer::Search::new();
+    let mut best: Option<(f32, Mesh, sight::Sights)> = None;
     for _ in 0..6 {
-        let mesh = build(&Detail { level, seed, fill }).fit();
+        let [fill, flat] = search.knobs();
+        let mesh = build(&Detail { level, seed, fill, flat }).fit();
         let seen = sight::look(&mesh);
-        let ratio = near.cover / seen.cover.max(1e-3);
-        let miss = (ratio - 1.0).abs();
+        let off = |near: f32, seen: f32| (near / seen.max(1e-3) - 1.0).abs();
+        let [side, top] = [off(near.side.cover, seen.side.cover), off(near.top.cover, seen.top.cover)];
+        let miss = side + 0.5 * top;
         if best.as_ref().is_none_or(|(least, _, _)| miss < *least) {
             best = Some((miss, mesh, seen));
         }
-        if miss < 0.03 {
+        if (side < 0.02 && top < 0.03) || !search.step(near, &seen) {
             break;
         }
-        fill = (fill * math::pow(ratio, 1.5).clamp(0.4, 2.5)).clamp(0.05, 12.0);
     }
     let (_, mut mesh, seen) = best.unwrap_or_default();
     seen.adapt(near, &mut mesh);

@@ -95,7 +95,9 @@ fn draw(mesh: &mut Mesh, form: &Mushroom, detail: &Detail, one: &Single, budget:
     tube::tube(mesh, &(0..=stem_rings).map(knot).collect::<Vec<_>>(), stem_sides);
     let axis = (at(1.0) - at(0.8)).normalize_or(Vec3::Z);
     let base = at(1.0) - axis * (deep * 0.25);
+    let start = mesh.vertices.len();
     lathe(mesh, &rows, &Cap { base, axis, wide: cap, deep, sides, spin: one.spin });
+    detail.flatten_part(mesh, start, base + axis * deep);
 }
 
 /// Mushroom of five triangles: a stem and a cap without a lower side.
@@ -110,6 +112,7 @@ fn far(mesh: &mut Mesh, form: &Mushroom, detail: &Detail, one: &Single) {
     let ends =
         [one.foot - across, one.foot + across, top - Vec3::Z * (deep * 0.6)].map(|p| mesh.vertex(p, front, stalk));
     mesh.triangle(ends[0], ends[1], ends[2]);
+    let start = mesh.vertices.len();
     let peak = mesh.vertex(top, Vec3::Z, Look { part: 1.0, light: 1.0, sway: 0.1 });
     let rim = [0, 1, 2, 3].map(|s| {
         let out = around(one.spin + TURN * s as f32 * 0.25);
@@ -117,6 +120,7 @@ fn far(mesh: &mut Mesh, form: &Mushroom, detail: &Detail, one: &Single) {
         mesh.vertex(at, out + Vec3::Z * 0.4, Look { part: 0.8, light: 0.75, sway: 0.1 })
     });
     (0..4).for_each(|s| mesh.triangle(rim[s], rim[(s + 1) % 4], peak));
+    detail.flatten_part(mesh, start, top);
 }
 
 /// Cap's place and size.

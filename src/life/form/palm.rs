@@ -138,12 +138,12 @@ fn strip(mesh: &mut Mesh, form: &Palm, detail: &Detail, frond: &Frond, age: f32,
         let s = i as f32 / last as f32;
         let (at, along) = frond.at(s);
         // The strip is tilted, so that it shows from the side as well.
-        let tilt = if ((age * 40.0) as u32).is_multiple_of(2) { 0.6 } else { -0.6 };
+        let tilt = if ((age * 40.0) as u32).is_multiple_of(2) { 0.3 } else { -0.3 };
         let across = turn(frond.side, along, tilt);
         let girth = if i == 0 { 0.45 } else { sin(3.0 * mix(0.3, 1.0, s)).max(0.35) };
         Rib {
             at,
-            half: across * (wide * girth),
+            half: detail.flatten(across * (wide * girth)),
             normal: frond.side.cross(along) * -1.0 + Vec3::Z,
             look: look(age, s, 0.9),
         }

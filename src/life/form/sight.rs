@@ -23,8 +23,13 @@ impl Sight {
         Self { cover: sums.x / square, part: sums.y / pixels, light: sums.z / pixels }
     }
 
+    /// Mean look of two sights, with the cover of the first.
+    fn with(&self, other: &Sight) -> Self {
+        Self { part: 0.5 * (self.part + other.part), light: 0.5 * (self.light + other.light), ..*self }
+    }
+
     /// Change of a mesh seen so, to the colours and light of another sight.
-    pub(super) fn adapt(&self, target: &Sight, mesh: &mut Mesh) {
+    fn adapt(&self, target: &Sight, mesh: &mut Mesh) {
         let up = target.part > self.part;
         let less = (target.part / self.part.max(1e-3)).clamp(0.0, 1.0);
         let more = ((1.0 - target.part) / (1.0 - self.part).max(1e-3)).clamp(0.0, 1.0);
@@ -33,6 +38,22 @@ impl Sight {
             v.part = if up { 1.0 - (1.0 - v.part) * more } else { v.part * less };
             v.light = (v.light * glow).clamp(0.0, 1.0);
         }
+    }
+}
+
+/// What is seen from the side and from above.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sights {
+    /// Mean over four sides.
+    pub side: Sight,
+    /// From above.
+    pub top: Sight,
+}
+
+impl Sights {
+    /// Change of a mesh seen so, to the colours and light of other sights: both sides count the same.
+    pub(super) fn adapt(&self, target: &Sights, mesh: &mut Mesh) {
+        self.side.with(&self.top).adapt(&target.side.with(&target.top), mesh);
     }
 }
 
@@ -102,26 +123,28 @@ pub(super) fn each_pixel(p: [Vec3; 3], [width, rows]: [usize; 2], mut found: imp
     }
 }
 
-/// Sight of a mesh, as the mean over four sides.
-pub(super) fn look(mesh: &Mesh) -> Sight {
-    look_from(mesh, 4, 40)
+/// Sights of a mesh, from four sides and from above.
+pub(super) fn look(mesh: &Mesh) -> Sights {
+    Sights { side: look_from(mesh, 4, 40), top: look_down(mesh, 48) }
 }
 
 /// Sight of a mesh from a number of sides over half a turn, with a number of rows over its height.
 pub(super) fn look_from(mesh: &Mesh, sides: usize, rows: usize) -> Sight {
     let reach = reach(mesh);
-    // A wide form is seen in the same number of pixels as a narrow one.
-    let scale = (rows as f32).min(2.25 * rows as f32 / reach);
-    let width = ((reach * 2.0 * scale) as usize + 1).min(5 * rows);
+    // The pixels are as wide as it takes for every form to be as many wide.
+    let width = rows * 5 / 4;
+    let scale = Vec2::new(width as f32 / (2.0 * reach), rows as f32);
     let mut sums = Vec3::ZERO;
     for side in 0..sides {
         let right = around(TURN * (side as f32 + 0.35) / (2.0 * sides as f32));
         let away = Vec3::new(-right.y, right.x, 0.0);
+        // Each side is seen in rows of other heights: many leaves are thinner than a row.
+        let shift = (side as f32 + 0.5) / sides as f32 - 0.5;
         let mut picture = Picture::new(width, rows);
-        picture.draw_mesh(mesh, |p| Vec3::new((p.dot(right) + reach) * scale, p.z * scale, p.dot(away)));
+        picture.draw_mesh(mesh, |p| Vec3::new((p.dot(right) + reach) * scale.x, p.z * scale.y + shift, p.dot(away)));
         sums += picture.sums();
     }
-    Sight::of(sums, sides as f32 * scale * scale)
+    Sight::of(sums, sides as f32 * scale.x * scale.y)
 }
 
 /// Sight of a mesh from above, with a number of rows over its width.
@@ -135,5 +158,5 @@ pub(super) fn look_down(mesh: &Mesh, rows: usize) -> Sight {
 
 /// Greatest distance of a mesh from its axis, at least a tenth of its height.
 fn reach(mesh: &Mesh) -> f32 {
-    mesh.vertices.iter().fold(0.1_f32, |r, v| r.max(v.position.truncate().length()))
+    mesh.vertices.iter().fold(0.02_f32, |r, v| r.max(v.position.truncate().length()))
 }

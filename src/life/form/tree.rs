@@ -102,7 +102,7 @@ pub(super) fn build(plan: &Plan, detail: &Detail) -> Mesh {
     if detail.level == 3 && leaves >= 0.45 {
         let points: Vec<Vec3> = plan.spots.iter().map(|s| s.at).collect();
         let core = mix(0.45, 0.95, smooth(0.1, 0.7, leaves));
-        clump::draw(&mut mesh, &points, core * detail.swell(), plan.seed);
+        clump::draw(&mut mesh, &points, core, detail);
         return mesh;
     }
     Foliage { form: plan.form, canopy: &plan.canopy, spots: &plan.spots, seed: plan.seed }.draw(&mut mesh, detail);

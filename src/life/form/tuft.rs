@@ -39,9 +39,9 @@ pub(super) fn build(form: &Tuft, detail: &Detail) -> Mesh {
         let stem = stem(form, detail, i, count, points, head);
         let width = form.width as f32 * detail.fill * merged;
         if form.leaflets && each < 3 {
-            half_frond(&mut mesh, &stem, width * if i % 2 == 0 { 1.0 } else { -1.0 });
+            half_frond(&mut mesh, &stem, detail, width * if i % 2 == 0 { 1.0 } else { -1.0 });
         } else if form.leaflets && !near {
-            far_frond(&mut mesh, &stem, width);
+            far_frond(&mut mesh, &stem, detail, width);
         } else if form.leaflets {
             let mut random = Random::new(detail.seed, 400 + i as u32);
             frond(&mut mesh, &stem, each.min(61), form.width as f32 / 0.05, &mut random);
@@ -141,10 +141,10 @@ fn seeds(mesh: &mut Mesh, stem: &Stem, detail: &Detail) {
 }
 
 /// Far fern frond: one triangle from the foot over a broad side to the tip.
-fn half_frond(mesh: &mut Mesh, stem: &Stem, width: f32) {
+fn half_frond(mesh: &mut Mesh, stem: &Stem, detail: &Detail, width: f32) {
     let last = stem.points.len() - 1;
     let corner = |mesh: &mut Mesh, i: usize, aside: f32| {
-        let at = stem.points[i] + stem.side * aside;
+        let at = stem.points[i] + detail.flatten(stem.side * aside - Vec3::Z * (0.3 * aside.abs()));
         mesh.vertex(at, normal(at), look(i as f32 / last as f32))
     };
     let [a, b, c] = [(0, 0.0), (last / 2, width * 1.5), (last, 0.0)].map(|(i, aside)| corner(mesh, i, aside));
@@ -175,11 +175,11 @@ fn spike(mesh: &mut Mesh, stem: &Stem, count: usize, detail: &Detail) {
 }
 
 /// Fern frond farther away: three arrowheads along the midrib, whose wings stand for the leaflets.
-fn far_frond(mesh: &mut Mesh, stem: &Stem, width: f32) {
+fn far_frond(mesh: &mut Mesh, stem: &Stem, detail: &Detail, width: f32) {
     let last = stem.points.len() - 1;
     let mut corner = |share: f32, aside: f32| {
         let i = ((share * last as f32) as usize).min(last);
-        let at = stem.points[i] + stem.side * aside - Vec3::Z * (0.15 * aside.abs());
+        let at = stem.points[i] + detail.flatten(stem.side * aside - Vec3::Z * (0.3 * aside.abs()));
         mesh.vertex(at, normal(at) + stem.side * (aside * 2.0), look(share))
     };
     let heads = [(0.15, 0.6, 0.85), (0.38, 0.86, 1.3), (0.64, 1.0, 0.95)];
