@@ -73,18 +73,20 @@ fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
         * between(place.temperature_c, climate.z, climate.w, SOFT_C);
 }
 
-// Strength of the mottling of stands, and period of its noise in widths of a crown.
+// Strength of the mottling of stands: in light, and in density where objects stand in groups. Period of its noise in
+// widths of a crown.
 const STANDS: f32 = 0.18;
+const GROUPS: f32 = 1.6;
 const STAND_WIDTHS: f32 = 24.0;
 
-// Stands of a population: a factor of mean 1 on its light.
+// Stands of a population: a noise of mean 0, about -0.5 to 0.5.
 fn stands(width_m: f32, place: CanopyPlace) -> f32 {
     let tile_m = WRAP_FAR_M / round(WRAP_FAR_M / (STAND_WIDTHS * width_m));
     let lod = log2(max(place.footprint_m, 1e-4) * NOISE_TILE_SIDE / tile_m);
     let share = 1.0 - smoothstep(3.0, 5.5, lod);
-    if share <= 0.0 { return 1.0; }
+    if share <= 0.0 { return 0.0; }
     let at = (body.eye_wrap_far_m + place.rel_m).yzx / tile_m;
-    return 1.0 + STANDS * share * (2.0 * textureSampleLevel(noise_tile, repeated, at, max(lod, 0.0)).r - 1.0);
+    return share * (2.0 * textureSampleLevel(noise_tile, repeated, at, max(lod, 0.0)).r - 1.0);
 }
 
 // Adds the layers of a biome, the highest first. Single crowns are those of the layer that covers most.
@@ -113,16 +115,18 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         let shape = biome_param(id, row + 1);
         let kind = biome_param(id, row + 4);
         let size = biome_param(id, row + 5).zw;
-        let areas = densities[i] * vec2f(color.w, shape.x);
+        let stand = select(0.0, stands(kind.x, place), i == most);
+        let density = densities[i] * max(1.0 + GROUPS * kind.y * stand, 0.0);
+        let areas = density * vec2f(color.w, shape.x);
         // As in src/life/scenery.rs.
         let drawn = saturate1((1.0 - place.distance_m / max(shape.w, 1e-3)) / (1.0 - FULL_SHARE));
         var rest = exp(-(1.0 - drawn) * (areas.x + areas.y * (*canopy).eye_tangent));
         var relief = vec2f(1.0);
         if i == most && drawn < 1.0 {
-            let left = (1.0 - drawn) * densities[i];
+            let left = (1.0 - drawn) * density;
             let crowns = crowns_seen(kind.x, size.y, color.w, shape.x, left, place, body.suns[0].dir);
             rest = mix(rest, 1.0 - crowns.hit, crowns.clear);
-            relief = mix(vec2f(1.0), crowns.relief, crowns.clear) * stands(kind.x, place);
+            relief = mix(vec2f(1.0), crowns.relief, crowns.clear) * (1.0 + STANDS * stand);
         }
         (*canopy).layers[end] = CanopyLayer(
             color.rgb, share * open * (1.0 - rest), areas, kind.w, size.x, size.y, relief, vec2<i32>(id, row),
@@ -194,9 +198,9 @@ fn object_light(at: vec2<i32>, rays: CanopyRays) -> vec2f {
 
 // Light that the tops of crowns have more than all that is seen of a crown that stands alone: from above, aslant from
 // the side of the sun, and aslant against it.
-const TOPS_FROM_ABOVE: f32 = 0.08;
-const TOPS_ASLANT: f32 = 0.35;
-const TOPS_AGAINST: f32 = 1.0;
+const TOPS_FROM_ABOVE: f32 = 0.2;
+const TOPS_ASLANT: f32 = 0.2;
+const TOPS_AGAINST: f32 = 1.4;
 
 // Areas of the objects that overtop a layer: those of its own height do not.
 fn higher_areas(canopy: Canopy, number: i32) -> vec2f {
@@ -222,7 +226,7 @@ fn canopy_radiance(canopy: Canopy, sunlight: vec3f, sky: vec3f, sun_cosine: f32,
         let closed = layer.casts * (1.0 - exp(-layer.areas.x));
         let tops = mix(TOPS_FROM_ABOVE, mix(TOPS_ASLANT, TOPS_AGAINST, rays.against), saturate1(rays.eye_deg / COVER_EYES_DEG.y));
         // At a flat angle one sees the sides again.
-        let more = tops * smoothstep(90.0, COVER_EYES_DEG.y, rays.eye_deg);
+        let more = tops * smoothstep(90.0, 75.0, rays.eye_deg);
         let light = object_light(layer.at, rays) * (1.0 + closed * more);
         let of_sun = sunlight * (sun * layer.relief.x * light.x);
         sum += layer.seen * layer.albedo * (of_sun + sky * (open * layer.relief.y * light.y));

@@ -87,7 +87,7 @@ fn crowns_seen(
     let across = width_m / max(place.distance_m * frame.pixel_rad, 1e-6);
     let clear = smoothstep(CROWN_PIXELS.x, CROWN_PIXELS.y, across)
         * smoothstep(LEAST_WIDTH_M, 2.0 * LEAST_WIDTH_M, width_m)
-        * smoothstep(0.2 * LEAST_MU, LEAST_MU, dot(n, v));
+        * smoothstep(0.2 * LEAST_MU, 0.6 * LEAST_MU, dot(n, v));
     var out = CrownsSeen(clear, 0.0, vec2f(1.0));
     if clear <= 0.0 { return out; }
     // As many domes as objects, each as wide as one.
@@ -117,10 +117,10 @@ fn crowns_seen(
     for (var i = 0; i < steps; i++) {
         z -= step_m;
         dome = dome_at(foot + to_eye * z, field);
-        if dome.x >= z { break; }
+        if dome.x > max(z, 0.0) { break; }
         over_m = dome.x - z;
     }
-    if dome.x < z {
+    if dome.x <= max(z, 0.0) {
         // The ray is below the tops, or on the ground.
         out.hit = 1.0 - exp(-density * side * max(z / height_m, 0.0) / mu);
         return out;
