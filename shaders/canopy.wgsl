@@ -224,7 +224,8 @@ fn canopy_radiance(canopy: Canopy, sunlight: vec3f, sky: vec3f, sun_cosine: f32,
         let open = mix(1.0, exp(-above.x), 1.0 - UNDER_CROWNS);
         // Of crowns that close, one sees the tops, which have more light.
         let closed = layer.casts * (1.0 - exp(-layer.areas.x));
-        let tops = mix(TOPS_FROM_ABOVE, mix(TOPS_ASLANT, TOPS_AGAINST, rays.against), saturate1(rays.eye_deg / COVER_EYES_DEG.y));
+        let aslant = mix(TOPS_ASLANT, TOPS_AGAINST, rays.against);
+        let tops = mix(TOPS_FROM_ABOVE, aslant, saturate1(rays.eye_deg / COVER_EYES_DEG.y));
         // At a flat angle one sees the sides again.
         let more = tops * smoothstep(90.0, 75.0, rays.eye_deg);
         let light = object_light(layer.at, rays) * (1.0 + closed * more);

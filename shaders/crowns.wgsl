@@ -20,7 +20,8 @@ const BEND_CELLS: f32 = 48.0;
 const BEND: f32 = 1.6;
 // Way of a dome within its cell, in cells.
 const JITTER: f32 = 0.65;
-// Cosine to the normal of the ground below which rays are taken as steeper: flatter ones would see the highest tops alone.
+// Cosine to the normal of the ground below which rays are taken as steeper: flatter ones would see the highest tops
+// alone.
 const LEAST_MU: f32 = 0.17;
 // Way of the ray from one step to the next, at the most, in cells.
 const STEP_CELLS: f32 = 0.4;

@@ -11,6 +11,9 @@ const GRAIN_M: vec3f = vec3f(0.45, 0.13, 0.035);
 const GRAIN_HEIGHT: f32 = 0.10;
 // Width of a leaf, metres.
 const LEAF_M: f32 = 0.09;
+// Width of a cluster in pixels, at the least, and as a share of the height of the object, at the most.
+const CLUSTER_PIXELS: f32 = 3.0;
+const WIDEST_CLUSTER: f32 = 0.03;
 
 struct ObjectMaterial {
     // Factor on the albedo
@@ -76,12 +79,9 @@ fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     return out;
 }
 
-// Single leaves on the blades of a crown: cells about points, one for each leaf.
-fn leaves(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
-    var out = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
-    let clear = clear_at(LEAF_M, pixel_m);
-    if clear <= 0.0 { return out; }
-    let q = p_m / LEAF_M;
+// Leaves of one width: cells about points, one for each leaf.
+fn leaves_of(width_m: f32, p_m: vec3f) -> ObjectMaterial {
+    let q = p_m / width_m;
     let first = floor(q - 0.5);
     var nearest = 9.0;
     var found = vec3f(0.5);
@@ -96,16 +96,30 @@ fn leaves(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
         }
     }
     let edge = smoothstep(0.10, 0.45, nearest);
-    out.tint = 1.0 + clear * (vec3f(0.45, 0.40, 0.25) * (found.x - 0.5) + 0.25 * (0.4 - edge));
-    out.tilt = clear * (found - 0.5);
-    out.gap = clear * smoothstep(0.10, 0.30, nearest);
-    return out;
+    let tint = 1.0 + vec3f(0.45, 0.40, 0.25) * (found.x - 0.5) + 0.25 * (0.4 - edge);
+    return ObjectMaterial(tint, 0.0, found - 0.5, smoothstep(0.10, 0.30, nearest));
+}
+
+// Leaves on the blades of a crown, which are wider than leaves: single ones near the eye, farther away clusters that are
+// some pixels wide, as far as they are narrower than blades.
+fn leaves(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
+    let octave = log2(max(CLUSTER_PIXELS * pixel_m / LEAF_M, 1.0));
+    let width_m = LEAF_M * exp2(floor(octave));
+    let clear = 1.0 - smoothstep(0.5, 1.0, 0.5 * LEAF_M * exp2(octave) / (WIDEST_CLUSTER * size_m));
+    if clear <= 0.0 { return ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0); }
+    let fine = leaves_of(width_m, p_m);
+    let coarse = leaves_of(2.0 * width_m, p_m);
+    let share = fract(octave);
+    return ObjectMaterial(
+        mix(vec3f(1.0), mix(fine.tint, coarse.tint, share), clear), 0.0,
+        clear * mix(fine.tilt, coarse.tilt, share), clear * mix(fine.gap, coarse.gap, share),
+    );
 }
 
 // `leaf`: share of the second colour. `p_m`: place in the form.
 fn object_material(kind: u32, leaf: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     if kind == ROCK { return rock(p_m, size_m, pixel_m); }
     if kind >= LEAFY && leaf < 0.5 { return bark(p_m, pixel_m); }
-    if kind == LEAFY { return leaves(p_m, pixel_m); }
+    if kind == LEAFY { return leaves(p_m, size_m, pixel_m); }
     return ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
 }
