@@ -100,8 +100,8 @@ fn leaves_of(width_m: f32, p_m: vec3f) -> ObjectMaterial {
     return ObjectMaterial(tint, 0.0, found - 0.5, smoothstep(0.10, 0.30, nearest));
 }
 
-// Leaves on the blades of a crown, which are wider than leaves: single ones near the eye, farther away clusters that are
-// some pixels wide, as far as they are narrower than blades.
+// Leaves on the blades of a crown, which are wider than leaves: single ones near the eye, farther away clusters that
+// are some pixels wide, as far as they are narrower than blades.
 fn leaves(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     let octave = log2(max(CLUSTER_PIXELS * pixel_m / LEAF_M, 1.0));
     let width_m = LEAF_M * exp2(floor(octave));
