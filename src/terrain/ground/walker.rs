@@ -7,7 +7,7 @@
 
 use super::GroundPatch;
 use crate::planet::Planet;
-use crate::terrain::contact::{Capsule, Contact};
+use crate::terrain::contact::{Capsule, Contact, Sweep};
 use glam::DVec3;
 
 /// Longest time of a step: the rest is dropped.
@@ -16,6 +16,8 @@ const MOST_SECS: f64 = 0.25;
 const MOST_SLIDES: usize = 4;
 /// Shares of the skin between which the gap of one who stands may be.
 const RESTING: [f64; 2] = [0.25, 2.0];
+/// What has a normal with less than this share upwards is a wall.
+const STEEP: f64 = 0.3;
 /// What falls by less than this share of a step under gravity is held.
 const HELD: f64 = 1e-3;
 /// The Earth's, m/s² and metres.
@@ -76,6 +78,39 @@ impl WalkerBody {
     }
 }
 
+/// Obstacles of a walker: what it stands on and what stops it.
+///
+/// [`GroundPatch`] is the ground alone, `life::Surroundings` the ground with trunks and stones.
+pub trait Walkable {
+    /// The ground on which they stand.
+    fn ground(&mut self) -> &mut GroundPatch;
+
+    /// As [`GroundPatch::contact`], with the nearest of all obstacles.
+    fn contact(&mut self, capsule: &Capsule, within_m: f64) -> Option<Contact>;
+
+    /// The way out of what stands on the ground, for a capsule that is put into it; zero for one that is free.
+    fn way_aside(&mut self, _capsule: &Capsule, _skin_m: f64) -> DVec3 {
+        DVec3::ZERO
+    }
+
+    /// As [`GroundPatch::sweep`], until the first of all obstacles.
+    fn sweep(&mut self, capsule: &Capsule, motion_planet_m: DVec3, skin_m: f64) -> Option<Sweep>;
+}
+
+impl Walkable for GroundPatch {
+    fn ground(&mut self) -> &mut GroundPatch {
+        self
+    }
+
+    fn contact(&mut self, capsule: &Capsule, within_m: f64) -> Option<Contact> {
+        GroundPatch::contact(self, capsule, within_m)
+    }
+
+    fn sweep(&mut self, capsule: &Capsule, motion_planet_m: DVec3, skin_m: f64) -> Option<Sweep> {
+        GroundPatch::sweep(self, capsule, motion_planet_m, skin_m)
+    }
+}
+
 /// Where a walker would come to stand.
 struct Landing {
     feet_m: DVec3,
@@ -89,12 +124,22 @@ impl Walker {
     }
 
     /// A walker on the ground in a direction.
-    pub fn on_ground(body: WalkerBody, patch: &mut GroundPatch, dir_planet: DVec3) -> Self {
-        let up = crate::terrain::points::unit(dir_planet);
-        let ground_m = patch.terrain().planet().radius_m() + patch.height_m(up);
+    pub fn on_ground(body: WalkerBody, patch: &mut impl Walkable, dir_planet: DVec3) -> Self {
+        let mut up = crate::terrain::points::unit(dir_planet);
         // Beside a slope the body touches before the feet do: it comes down from where it is free.
         let high_m = body.radius_m + body.step_m + body.skin_m;
-        let mut walker = Self::new(body, up * (ground_m + high_m));
+        let over = |patch: &mut GroundPatch, up: DVec3| {
+            up * (patch.terrain().planet().radius_m() + patch.height_m(up) + high_m)
+        };
+        let mut walker = Self::new(body, over(patch.ground(), up));
+        for _ in 0..MOST_SLIDES {
+            let aside_m = patch.way_aside(&body.capsule_at(walker.feet_planet_m), body.skin_m);
+            if aside_m == DVec3::ZERO {
+                break;
+            }
+            up = (walker.feet_planet_m + aside_m).normalize_or(up);
+            walker.feet_planet_m = over(patch.ground(), up);
+        }
         for _ in 0..MOST_SLIDES {
             let from_m = walker.feet_planet_m;
             match patch.sweep(&body.capsule_at(from_m), up * -2.0 * high_m, body.skin_m) {
@@ -136,7 +181,7 @@ impl Walker {
     /// Advances by a time, at most a quarter of a second. One who stands walks with the part of `wish_m_s` that is
     /// level, slower uphill and downhill by the way that the slope adds; one who falls or slides cannot. What is not
     /// finite counts as no wish, or no time.
-    pub fn step(&mut self, patch: &mut GroundPatch, wish_m_s: DVec3, duration_secs: f64) {
+    pub fn step(&mut self, patch: &mut impl Walkable, wish_m_s: DVec3, duration_secs: f64) {
         let secs = if duration_secs.is_finite() { duration_secs.clamp(0.0, MOST_SECS) } else { 0.0 };
         if secs == 0.0 {
             return;
@@ -159,19 +204,24 @@ impl Walker {
     }
 
     /// Stays where it is, to the bit, as long as the ground does.
-    fn rest(&mut self, patch: &mut GroundPatch) {
+    fn rest(&mut self, patch: &mut impl Walkable) {
         self.velocity_m_s = DVec3::ZERO;
         let skin_m = self.body.skin_m.max(super::TOUCH_M);
         let [least_m, most_m] = RESTING.map(|share| share * skin_m);
         match patch.contact(&self.body.capsule_at(self.feet_planet_m), most_m) {
             None => self.support = None,
-            Some(contact) if contact.gap_m < least_m => self.feet_planet_m += self.up() * (skin_m - contact.gap_m),
+            Some(contact) if contact.gap_m < least_m => {
+                let (up, normal) = (self.up(), contact.normal_planet);
+                // Beside a wall it goes away from it; else it would climb it.
+                let way = if normal.dot(up) < STEEP { normal } else { up };
+                self.feet_planet_m += way * (skin_m - contact.gap_m);
+            }
             Some(_) => {}
         }
     }
 
     /// One step of one who stands.
-    fn walk(&mut self, patch: &mut GroundPatch, pace_m_s: DVec3, secs: f64, support: DVec3) {
+    fn walk(&mut self, patch: &mut impl Walkable, pace_m_s: DVec3, secs: f64, support: DVec3) {
         let (from_m, up, body) = (self.feet_planet_m, self.up(), self.body);
         let wished_m = pace_m_s * secs;
         let (feet_m, contact) = match self.landing(patch, wished_m) {
@@ -202,7 +252,7 @@ impl Walker {
     }
 
     /// Where one who stands comes to who cannot go uphill.
-    fn along(&mut self, patch: &mut GroundPatch, wished_m: DVec3, support: DVec3) -> DVec3 {
+    fn along(&mut self, patch: &mut impl Walkable, wished_m: DVec3, support: DVec3) -> DVec3 {
         let (from_m, up, body) = (self.feet_planet_m, self.up(), self.body);
         let Some(Ok(Landing { feet_m, contact })) = self.landing(patch, wished_m) else { return from_m };
         if body.holds_on(contact.normal_planet, up) || self.leads_on(patch, wished_m) {
@@ -219,7 +269,7 @@ impl Walker {
     }
 
     /// Whether the way leads onto ground that can be stood on, no higher or lower than a step: over the edge of a kerb.
-    fn leads_on(&self, patch: &mut GroundPatch, wished_m: DVec3) -> bool {
+    fn leads_on(&self, patch: &mut impl Walkable, wished_m: DVec3) -> bool {
         let ahead_m = wished_m.normalize_or_zero() * (self.body.radius_m + wished_m.length());
         match self.landing(patch, ahead_m) {
             Some(Ok(landing)) => self.body.holds_on(landing.contact.normal_planet, self.up()),
@@ -229,16 +279,14 @@ impl Walker {
 
     /// Up by a step, along, and down by two: where that ends, or the position in the air of one who went over an edge.
     /// None if there is no way.
-    fn landing(&self, patch: &mut GroundPatch, wished_m: DVec3) -> Option<Result<Landing, DVec3>> {
+    fn landing(&self, patch: &mut impl Walkable, wished_m: DVec3) -> Option<Result<Landing, DVec3>> {
         let (body, up) = (self.body, self.up());
-        let sweep = |patch: &mut GroundPatch, feet_m: DVec3, motion_m: DVec3| {
-            patch.sweep(&body.capsule_at(feet_m), motion_m, body.skin_m)
-        };
-        let lift = sweep(patch, self.feet_planet_m, up * body.step_m);
+        let mut sweep = |feet_m: DVec3, motion_m: DVec3| patch.sweep(&body.capsule_at(feet_m), motion_m, body.skin_m);
+        let lift = sweep(self.feet_planet_m, up * body.step_m);
         let lifted_m = body.step_m * lift.map_or(1.0, |lift| lift.share);
         let (mut feet_m, mut left_m) = (self.feet_planet_m + up * lifted_m, wished_m);
         for _ in 0..MOST_SLIDES {
-            let Some(hit) = sweep(patch, feet_m, left_m) else {
+            let Some(hit) = sweep(feet_m, left_m) else {
                 feet_m += left_m;
                 break;
             };
@@ -249,7 +297,7 @@ impl Walker {
             left_m -= wall * left_m.dot(wall).min(0.0);
         }
         let fall_m = lifted_m + body.step_m;
-        match sweep(patch, feet_m, up * -fall_m) {
+        match sweep(feet_m, up * -fall_m) {
             Some(hit) if hit.contact.gap_m < 0.0 => None,
             Some(hit) => Some(Ok(Landing { feet_m: feet_m - up * (fall_m * hit.share), contact: hit.contact })),
             None => Some(Err(feet_m - up * lifted_m)),
@@ -257,7 +305,7 @@ impl Walker {
     }
 
     /// One step of one who falls or slides.
-    fn fall(&mut self, patch: &mut GroundPatch, secs: f64) {
+    fn fall(&mut self, patch: &mut impl Walkable, secs: f64) {
         let (from_m, up, body) = (self.feet_planet_m, self.up(), self.body);
         let friction = libm::tan(body.slope_limit_rad);
         let fallen_m_s = body.gravity_m_s2 * secs;
