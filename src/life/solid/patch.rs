@@ -306,8 +306,13 @@ impl ObjectPatch {
 
     /// A distance that a capsule can move whatever the direction, if it is far over the ground and has far to go.
     fn free_m(&self, capsule: &Capsule, wanted_m: f64) -> Option<f64> {
+        let middle_m = Axis::of(capsule).middle_m();
+        let over_m = || middle_m.length() - self.terrain.planet().radius_m() - self.terrain.height_m(middle_m);
+        if wanted_m < FAR_M || over_m() < FAR_M {
+            return None;
+        }
         let high = Capsule { radius_m: capsule.radius_m + self.tallest_m, ..*capsule };
-        if wanted_m > FAR_M { self.terrain.free_m(&high, wanted_m) } else { None }
+        self.terrain.free_m(&high, wanted_m)
     }
 
     /// Finds the cells whose objects may be within a distance of a position, and places those that are not known.
