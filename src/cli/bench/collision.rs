@@ -30,10 +30,10 @@ const BOULDERS: f64 = 60.0;
 const EYE_M: f64 = 1.5;
 const RAY_M: f64 = 100.0;
 
-/// An entry of the `collision` list of the report, with those of [`objects`]: means in microseconds of capsules of a person's size, on ground that
-/// is known; `placed_us` is what a walker's first ground takes. `walker_step_us` is a step of one of 200 walkers, new
-/// ground included; `walkers_a_core` how many of them one core moves in time. `deviation_m` is the greatest that the
-/// patch said.
+/// An entry of the `collision` list of the report, with those of [`objects`]: means in microseconds of capsules of a
+/// person's size, on ground that is known; `placed_us` is what a walker's first ground takes. `walker_step_us` is a
+/// step of one of 200 walkers, new ground included; `walkers_a_core` how many of them one core moves in time.
+/// `deviation_m` is the greatest that the patch said.
 pub(super) fn measure(planet: &Arc<Planet>) -> Result<Value, String> {
     let terrain = Arc::new(Terrain::try_new(planet.clone()).map_err(|error| error.to_string())?);
     let tangent = Tangent::at(opening::opening_place(planet));
@@ -106,8 +106,8 @@ fn forest(planet: &Planet) -> Planet {
 }
 
 /// Means in microseconds of objects alone, on places that are known: `contact_us` of those nearer than 2 m, `sweep_us`
-/// over a decimetre, `far_us` over 25 m, `ray_us` over 100 m. `walker_step_us` is a step of one of 200 walkers among the
-/// trunks, new ground and objects included. `forms_ms` is what measuring the forms takes.
+/// over a decimetre, `far_us` over 25 m, `ray_us` over 100 m. `walker_step_us` is a step of one of 200 walkers among
+/// the trunks, new ground and objects included. `forms_ms` is what measuring the forms takes.
 fn objects(planet: &Planet, dirs: &[DVec3]) -> Result<Value, String> {
     let terrain = Arc::new(Terrain::try_new(Arc::new(forest(planet))).map_err(|error| error.to_string())?);
     let (body, radius_m) = (WalkerBody::on(planet), planet.radius_m());

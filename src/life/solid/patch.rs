@@ -51,8 +51,8 @@ pub struct RayHit {
 /// They are the objects that [`Terrain::instances`] answers and that are drawn, of populations that are
 /// [`solid`](crate::planet::Population::solid). Trunks, stalks and tendrils are hit as capsules, section by section;
 /// stones, crystals, cacti, mushrooms and cushions as convex hulls of the connected parts of their mesh. The
-/// [`Contact::deviation_m`] of a contact says how far the mesh's corners may lie from the shape; it is measured. Boughs,
-/// leaves, needles, fronds and blades of grass are passed through, and nothing is hit of a tuft.
+/// [`Contact::deviation_m`] of a contact says how far the corners of the mesh lie from the shape, at most; it is
+/// measured. Boughs, leaves, needles, fronds and blades of grass are passed through, and nothing is hit of a tuft.
 ///
 /// Cells of a population are placed when a shape first comes near, and those not used for longest are dropped. A patch
 /// belongs to one thread. Answers do not depend on what was asked before. After a change of the planet make a new one.
@@ -106,7 +106,7 @@ impl ObjectPatch {
         }
     }
 
-    /// An empty patch of the same planet for another thread, with the same hidden objects: forms are not measured again.
+    /// An empty patch of the same planet for another thread, with the same hidden objects: it measures no form again.
     #[must_use]
     pub fn another(&self) -> Self {
         let other = Self::with_forms(Arc::clone(&self.terrain), Arc::clone(&self.forms));
@@ -141,7 +141,7 @@ impl ObjectPatch {
     }
 
     /// Where a capsule is nearest to an object; None if all are farther than `within_m`, and for a capsule that is not
-    /// finite or has no radius. A capsule in an object has the way out: the least of a trunk, of a stone the least along
+    /// finite or has no radius. A capsule in an object has the way out: of a trunk the least, of a stone the least along
     /// the normal of a face of its hull.
     ///
     /// A capsule that reaches farther than 500 m with `within_m` meets no object.
@@ -342,8 +342,8 @@ impl ObjectPatch {
         self.cells = cells;
     }
 
-    /// Calls for each object that may be within a distance of a segment, but for hidden ones. The answer is the distance
-    /// that counts from then on.
+    /// Calls for each object that may be within a distance of a segment, but for hidden ones. The answer is the
+    /// distance that counts from then on.
     fn visit<'a>(&'a self, segment: &Axis, mut within_m: f64, mut meet: impl FnMut(&'a Solid, &'a SolidForm) -> f64) {
         let is_near =
             |middle_m: DVec3, most_m: f64| segment.nearest_to(middle_m).distance_squared(middle_m) <= most_m * most_m;

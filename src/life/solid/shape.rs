@@ -1,8 +1,8 @@
 //! Solid shapes of forms: what bodies hit of an object, measured on its nearest mesh.
 //!
-//! Stems that rise from the ground (trunks, stalks, tendrils) are rods, section by section; see `stem`. Stones, crystals,
-//! cacti, caps and other bodies are convex hulls, one for each connected part of the mesh, or balls. Leaves, blades,
-//! needles, fronds and boughs are passed through.
+//! Stems that rise from the ground (trunks, stalks, tendrils) are rods, section by section; see `stem`. Stones,
+//! crystals, cacti, caps and other bodies are convex hulls, one for each connected part of the mesh, or balls. Leaves,
+//! blades, needles, fronds and boughs are passed through.
 
 use super::hull::{Hull, Sized};
 use super::rod::Rod;

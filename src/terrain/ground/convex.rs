@@ -1,7 +1,7 @@
 //! Convex pieces that a capsule meets, the distance between them, and when a capsule that moves touches one.
 //!
-//! [`Convex`] is all that contacts and sweeps know of what stands in the way: the ground's [`Triangle`]s here, trunks and
-//! stones in `life::solid`. Vectors are metres in the planet frame, or in that of an object.
+//! [`Convex`] is all that contacts and sweeps know of what stands in the way: the ground's [`Triangle`]s here, trunks
+//! and stones in `life::solid`. Vectors are metres in the planet frame, or in that of an object.
 
 use super::TOUCH_M;
 use glam::DVec3;

@@ -241,7 +241,7 @@ impl Walker {
             }
             None => return self.rest(patch),
         };
-        let (feet_m, normal) = self.beside(patch, Landing { feet_m, contact }, wished_m);
+        let (feet_m, normal) = self.beside(patch, &Landing { feet_m, contact }, wished_m);
         let to_m = if body.holds_on(normal, up) || self.leads_on(patch, wished_m) {
             self.stand(feet_m, normal);
             feet_m
@@ -263,7 +263,7 @@ impl Walker {
     fn along(&mut self, patch: &mut impl Walkable, wished_m: DVec3, support: DVec3) -> DVec3 {
         let (from_m, up, body) = (self.feet_planet_m, self.up(), self.body);
         let Some(Ok(landing)) = self.landing(patch, wished_m) else { return from_m };
-        let (feet_m, normal) = self.beside(patch, landing, wished_m);
+        let (feet_m, normal) = self.beside(patch, &landing, wished_m);
         if body.holds_on(normal, up) || self.leads_on(patch, wished_m) {
             self.stand(feet_m, normal);
             return feet_m;
@@ -279,7 +279,7 @@ impl Walker {
 
     /// Where one who would come down on a steep side stands beside it: the feet, and the normal of what holds them. One
     /// who climbs the edge of a kerb stays there.
-    fn beside(&self, patch: &mut impl Walkable, landing: Landing, wished_m: DVec3) -> (DVec3, DVec3) {
+    fn beside(&self, patch: &mut impl Walkable, landing: &Landing, wished_m: DVec3) -> (DVec3, DVec3) {
         let (body, up, normal) = (self.body, self.up(), landing.contact.normal_planet);
         let on_side = (landing.feet_m, normal);
         if body.holds_on(normal, up) {
