@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
 
-/// Memory of the objects that are kept at first: some 80,000 of them.
+/// Memory of the objects that are kept at first: some 100,000 of them.
 const KEPT_BYTES: usize = 16 << 20;
 /// Motions and rays are looked at in pieces of this length.
 const PIECE_M: f64 = 16.0;
@@ -319,7 +319,8 @@ impl ObjectPatch {
     fn gather(&mut self, middle_m: DVec3, within_m: f64) {
         self.asked += 1;
         self.near.clear();
-        if within_m > LARGEST_M {
+        let top_m = self.terrain.planet().radius_m() + self.terrain.height_bounds_m().1 + self.tallest_m;
+        if within_m > LARGEST_M || middle_m.length() - within_m > top_m {
             return;
         }
         if self.bytes > self.most_bytes {
