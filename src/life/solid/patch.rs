@@ -141,8 +141,8 @@ impl ObjectPatch {
     }
 
     /// Where a capsule is nearest to an object; None if all are farther than `within_m`, and for a capsule that is not
-    /// finite or has no radius. A capsule in an object has the way out: of a trunk the least, of a stone the least along
-    /// the normal of a face of its hull.
+    /// finite or has no radius. A capsule in an object has the way out: of a trunk the least, of a stone the least
+    /// along the normal of a face of its hull.
     ///
     /// A capsule that reaches farther than 500 m with `within_m` meets no object.
     pub fn contact(&mut self, capsule: &Capsule, within_m: f64) -> Option<Met<Contact>> {

@@ -295,6 +295,8 @@ mod tests {
                 assert_eq!(shape.parts.is_empty(), matches!(population.form, Form::Tuft(_)), "{name}");
                 // Roots bulge, and hulls close grooves.
                 let most = match Counts::of(&population.form) {
+                    // The tips of tendrils hang down beside their stems, and are passed through.
+                    Counts::Stems if matches!(population.form, Form::Tendrils(_)) => 0.2,
                     Counts::Stems | Counts::Both => 0.03,
                     _ => 0.12 * shape.reach,
                 };
