@@ -2,7 +2,7 @@
 
 use super::hash::Dice;
 use crate::planet::{Planet, Population};
-use crate::sphere::NodeId;
+use crate::sphere::{Face, NodeId, cube};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
@@ -103,6 +103,20 @@ impl Grid {
         }
         found.sort_unstable();
         found
+    }
+
+    /// Adds the cells that a cone around a direction covers, and perhaps some more; faster than [`Self::cells_within`].
+    /// `share`: sine of the cone's angle.
+    pub(super) fn add_cells_under(&self, dir: DVec3, share: f64, found: &mut Vec<NodeId>) {
+        let wide = cube::tangent_of(share);
+        let side = f64::from(1_u32 << self.level);
+        let cell = |w: f64| ((w + 1.0) * 0.5 * side).clamp(0.0, side - 1.0) as u32;
+        for face in Face::ALL {
+            let Some([s, t]) = cube::part_under(face, dir, wide) else { continue };
+            let [columns, rows] = [s, t].map(|w| w.map(cell));
+            let nodes = (rows[0]..=rows[1]).flat_map(|y| (columns[0]..=columns[1]).map(move |x| (x, y)));
+            found.extend(nodes.map(|(x, y)| NodeId { level: self.level, face, x, y }));
+        }
     }
 }
 

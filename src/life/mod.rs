@@ -7,6 +7,7 @@
 //! - `placement`: the objects of a cell
 //! - `canopy`: what populations cover of the ground
 //! - [`query`]: objects of a terrain, for games and exports
+//! - `solid`: what bodies hit of objects, and what moves among them
 //! - [`scenery`]: the objects that a view draws, kept from one view to the next
 //!
 //! A cell of a population is a node of the quadtree. Each candidate in it has a place, a size and a rank by integer
@@ -23,9 +24,11 @@ mod placement;
 pub mod query;
 pub mod scenery;
 mod soil;
+mod solid;
 pub(crate) mod suitability;
 
 pub use canopy::{Canopies, Canopy};
 pub use model::Model;
 pub use query::{Instance, TooMany};
 pub use scenery::{Scenery, SceneryCell};
+pub use solid::{HiddenObjects, Met, ObjectId, ObjectPatch, RayHit, Surroundings};

@@ -3,9 +3,10 @@
 use super::grid::angle;
 use super::placement::{Placement, PlacementScratch};
 use super::soil::Soils;
-use crate::sphere::NodeId;
+use super::solid::ObjectId;
+use crate::sphere::{NodeId, geo};
 use crate::terrain::Terrain;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 /// Cells that are placed at a time: it bounds the memory of their soil.
@@ -41,6 +42,28 @@ pub struct Instance {
     pub rank: f64,
     /// Place in its cell, 0 to 1.
     pub(crate) place: [f64; 2],
+}
+
+impl Instance {
+    /// Its name among all objects of the planet.
+    pub fn object(&self) -> ObjectId {
+        ObjectId { population: self.population, id: self.id }
+    }
+
+    /// Foot of the form in the planet frame, on a planet of a radius.
+    pub fn foot_planet_m(&self, planet_radius_m: f64) -> DVec3 {
+        self.dir_planet * (planet_radius_m + self.base_m)
+    }
+
+    /// Matrix that turns the form (z up) into the planet frame; its columns are the form's axes.
+    pub fn planet_from_form(&self) -> DMat3 {
+        let axis = self.axis_planet;
+        let (east, _) = geo::east_north(self.dir_planet);
+        let x = (east - axis * axis.dot(east)).normalize_or(axis.any_orthonormal_vector());
+        let y = axis.cross(x);
+        let (sin, cos) = libm::sincos(self.turn_rad);
+        DMat3::from_cols(x * cos + y * sin, y * cos - x * sin, axis)
+    }
 }
 
 /// A query for more objects than it may give.

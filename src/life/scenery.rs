@@ -9,9 +9,9 @@ use super::query::Instance;
 use super::soil::{Soil, Soils};
 use crate::lod::{Quality, View};
 use crate::planet::{Key, MAX_POPULATIONS, Population};
-use crate::sphere::{NodeId, geo};
+use crate::sphere::NodeId;
 use crate::terrain::Terrain;
-use glam::{DMat3, DQuat, DVec3, Quat};
+use glam::{DQuat, DVec3, Quat};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -317,13 +317,9 @@ fn make(terrain: &Terrain, needed: &Needed<'_>, soil: Option<&Soil>, memory: &mu
 }
 
 fn object(instance: &Instance, planet_m: f64) -> SceneryObject {
-    let axis = instance.axis_planet;
-    let (east, _) = geo::east_north(instance.dir_planet);
-    let x = (east - axis * axis.dot(east)).normalize_or(axis.any_orthonormal_vector());
-    let standing = DQuat::from_mat3(&DMat3::from_cols(x, axis.cross(x), axis));
     SceneryObject {
-        foot_planet_m: instance.dir_planet * (planet_m + instance.base_m),
-        planet_from_form: (standing * DQuat::from_rotation_z(instance.turn_rad)).normalize().as_quat(),
+        foot_planet_m: instance.foot_planet_m(planet_m),
+        planet_from_form: DQuat::from_mat3(&instance.planet_from_form()).normalize().as_quat(),
         size_m: instance.size_m as f32,
         brightness: instance.brightness as f32,
         rank: instance.rank as f32,

@@ -20,6 +20,9 @@ const NEAR_RIVER_M: f64 = 40.0;
 /// Metres over the sea within which single objects are checked for water.
 const NEAR_SEA_M: f64 = 25.0;
 
+/// Soil that is kept for single questions: a quarter of a megabyte.
+const MOST_KEPT: usize = 48;
+
 /// What the ground offers in a node.
 #[derive(Clone, Debug)]
 pub(super) struct Soil {
@@ -94,6 +97,14 @@ impl Soils {
         missing.dedup();
         let made = missing.par_iter().map_init(Scratch::default, |scratch, id| (*id, Soil::new(terrain, *id, scratch)));
         self.0.extend(made.collect::<Vec<_>>());
+    }
+
+    /// Adds the soil of a node, on the calling thread; forgets all others if there are many.
+    pub(super) fn add_one(&mut self, terrain: &Terrain, node: NodeId, scratch: &mut Scratch) {
+        if self.0.len() > MOST_KEPT && !self.0.contains_key(&node) {
+            self.0.clear();
+        }
+        self.0.entry(node).or_insert_with(|| Soil::new(terrain, node, scratch));
     }
 
     /// The soil of a node.

@@ -100,6 +100,35 @@ pub fn face_point(dir: DVec3) -> (Face, f64, f64) {
     (face, unbend(dir[s_axis] / depth * s_sign as f64), unbend(dir[t_axis] / depth))
 }
 
+/// Tangent of the angle of a cone whose sine is `share`; of nearly a right angle or more, infinite.
+pub(crate) fn tangent_of(share: f64) -> f64 {
+    if share < 0.9 { share / (1.0 - share * share).sqrt() } else { f64::INFINITY }
+}
+
+/// The part of a face, `s` and `t` from and to, that a cone around a direction covers. `wide`: see
+/// [`tangent_of`].
+pub(crate) fn part_under(face: Face, dir: DVec3, wide: f64) -> Option<[[f64; 2]; 2]> {
+    let (axis, sign) = face.axis();
+    let ((s_axis, s_sign), t_axis) = face.tangent_axes();
+    let depth = dir[axis] * sign as f64;
+    if wide > 0.2 {
+        return Some([[-1.0, 1.0]; 2]);
+    }
+    // A face ends 55 degrees from its middle; the cone is at most 12 wide.
+    if depth <= 0.3 * dir.length() {
+        return None;
+    }
+    let at = [dir[s_axis] * s_sign as f64 / depth, dir[t_axis] / depth];
+    let out = (at[0] * at[0] + at[1] * at[1]).sqrt();
+    // On the plane of the face an angle is stretched by at most the square of the secant at its far end.
+    let far = (out + wide) / (1.0 - out * wide);
+    let reach = wide * (1.0 + far * far) + 1e-12;
+    let part = |v: f64| {
+        (v - reach <= 1.0 && v + reach >= -1.0).then(|| [v - reach, v + reach].map(|v| unbend(v.clamp(-1.0, 1.0))))
+    };
+    Some([part(at[0])?, part(at[1])?])
+}
+
 #[cfg(any(feature = "bake", feature = "render"))]
 /// The direction at `x`, `y` of a face of a cube texture with `side` texels along each face, as WebGPU orders and turns
 /// its faces; the middles of texels are at halves. Faces are flat here, unlike those of the planet's squares.

@@ -76,7 +76,7 @@ impl Capsule {
         Self { ends_planet_m: self.ends_planet_m.map(|end_m| end_m + by_planet_m), radius_m: self.radius_m }
     }
 
-    pub(super) fn is_valid(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         self.ends_planet_m.iter().all(|end_m| end_m.is_finite()) && self.radius_m.is_finite() && self.radius_m > 0.0
     }
 
@@ -190,7 +190,7 @@ impl Terrain {
     }
 
     /// A distance that a capsule can move whatever the direction, from the bounds of the ground; None near it.
-    pub(super) fn free_m(&self, capsule: &Capsule, wanted_m: f64) -> Option<f64> {
+    pub(crate) fn free_m(&self, capsule: &Capsule, wanted_m: f64) -> Option<f64> {
         let tries = std::iter::successors(Some(wanted_m * 1.001), |distance_m| Some(distance_m * 0.25));
         let far = tries.take_while(|distance_m| *distance_m > 2.0 * capsule.radius_m);
         far.take(16).find(|distance_m| self.is_farther(capsule, *distance_m))

@@ -43,7 +43,7 @@ pub(crate) mod edits;
 mod effects;
 pub(crate) mod evaluate;
 pub(crate) mod field;
-mod ground;
+pub(crate) mod ground;
 pub(crate) mod height;
 mod jet;
 pub(crate) mod kept;
@@ -75,7 +75,7 @@ pub use contact::{Capsule, Contact, Sweep};
 pub use contours::Contour;
 pub use curve_inputs::{CurveInput, CurveInputs};
 pub use effects::LayerEffect;
-pub use ground::{GroundPatch, Walker, WalkerBody};
+pub use ground::{GroundPatch, Walkable, Walker, WalkerBody};
 pub use height::curve_at;
 pub use raycast::RayLimits;
 

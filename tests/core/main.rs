@@ -13,7 +13,7 @@
 //! - `rivers`: water on the whole course of rivers
 //! - `physics`, `ground`, `walker`: contacts, sweeps, and those who walk
 //! - `system`: orbits and resonances; `trial`: what trials of systems find
-//! - `life`: what stands on the ground
+//! - `life`: what stands on the ground; `solid`: what of it is hit
 //! - `water`: rivers, lakes and weather of a structure
 //! - `spread`: points far apart among rivers
 //! - `atmosphere`: the CPU reference of the air
@@ -44,6 +44,7 @@ mod relief;
 mod rivers;
 mod saving;
 mod sculpt;
+mod solid;
 mod sphere;
 mod spread;
 mod stages;

@@ -1,13 +1,13 @@
 //! Convex pieces that a capsule meets, the distance between them, and when a capsule that moves touches one.
 //!
-//! [`Convex`] is all that contacts and sweeps know of what stands in the way. Today it is the ground's [`Triangle`]s;
-//! a trunk or a stone is another kind of piece. Vectors are metres in the planet frame.
+//! [`Convex`] is all that contacts and sweeps know of what stands in the way: the ground's [`Triangle`]s here, trunks
+//! and stones in `life::solid`. Vectors are metres in the planet frame, or in that of an object.
 
 use super::TOUCH_M;
 use glam::DVec3;
 
 /// Two things this near each other touch; distances in the planet frame are good for a hundredth of it.
-const PRECISE_M: f64 = 1e-7;
+pub(crate) const PRECISE_M: f64 = 1e-7;
 /// A motion that brings two things nearer by less than this share of it leaves them apart.
 const LEAST_CLOSING: f64 = 1e-7;
 /// Most steps of an approach: each squares the error.
@@ -15,57 +15,57 @@ const MOST_STEPS: usize = 24;
 
 /// The axis of a capsule.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Axis {
-    pub(super) from_m: DVec3,
-    pub(super) to_m: DVec3,
+pub(crate) struct Axis {
+    pub(crate) from_m: DVec3,
+    pub(crate) to_m: DVec3,
 }
 
 /// Where an axis and a piece are nearest.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Nearest {
-    pub(super) on_axis_m: DVec3,
-    pub(super) on_piece_m: DVec3,
-    pub(super) away_m: f64,
+pub(crate) struct Nearest {
+    pub(crate) on_axis_m: DVec3,
+    pub(crate) on_piece_m: DVec3,
+    pub(crate) away_m: f64,
 }
 
 /// A convex piece of an obstacle.
-pub(super) trait Convex {
+pub(crate) trait Convex {
     /// Where it is nearest to an axis.
     fn nearest(&self, axis: &Axis) -> Nearest;
 }
 
 /// A piece of the ground, anticlockwise from above.
-pub(super) struct Triangle(pub(super) [DVec3; 3]);
+pub(crate) struct Triangle(pub(crate) [DVec3; 3]);
 
 impl Axis {
-    pub(super) fn moved(&self, by_m: DVec3) -> Self {
+    pub(crate) fn moved(&self, by_m: DVec3) -> Self {
         Self { from_m: self.from_m + by_m, to_m: self.to_m + by_m }
     }
 
-    pub(super) fn is_point(&self) -> bool {
+    pub(crate) fn is_point(&self) -> bool {
         self.from_m == self.to_m
     }
 
-    pub(super) fn middle_m(&self) -> DVec3 {
+    pub(crate) fn middle_m(&self) -> DVec3 {
         0.5 * (self.from_m + self.to_m)
     }
 
-    pub(super) fn length_m(&self) -> f64 {
+    pub(crate) fn length_m(&self) -> f64 {
         self.from_m.distance(self.to_m)
     }
 
     /// The point that is nearest to another.
-    pub(super) fn nearest_to(&self, point_m: DVec3) -> DVec3 {
+    pub(crate) fn nearest_to(&self, point_m: DVec3) -> DVec3 {
         nearest_on_segment([self.from_m, self.to_m], point_m)
     }
 }
 
 impl Nearest {
-    fn between(on_axis_m: DVec3, on_piece_m: DVec3) -> Self {
+    pub(crate) fn between(on_axis_m: DVec3, on_piece_m: DVec3) -> Self {
         Self { on_axis_m, on_piece_m, away_m: on_axis_m.distance(on_piece_m) }
     }
 
-    fn nearer(self, other: Self) -> Self {
+    pub(crate) fn nearer(self, other: Self) -> Self {
         if other.away_m < self.away_m { other } else { self }
     }
 }
@@ -140,7 +140,7 @@ fn nearest_on_segment([from_m, to_m]: [DVec3; 2], point_m: DVec3) -> DVec3 {
 }
 
 /// Where an axis and an edge are nearest (Ericson 2005, 5.1.9).
-fn between(axis: &Axis, edge: [DVec3; 2]) -> Nearest {
+pub(crate) fn between(axis: &Axis, edge: [DVec3; 2]) -> Nearest {
     let (along, across, apart) = (axis.to_m - axis.from_m, edge[1] - edge[0], axis.from_m - edge[0]);
     let (a, e, f) = (along.length_squared(), across.length_squared(), across.dot(apart));
     let (b, c) = (along.dot(across), along.dot(apart));
@@ -155,7 +155,7 @@ fn between(axis: &Axis, edge: [DVec3; 2]) -> Nearest {
 /// not: also if it touches already and leaves, or slides along.
 ///
 /// It stops [`TOUCH_M`] before a piece that it would meet, so that rounding never lets it in.
-pub(super) fn impact(
+pub(crate) fn impact(
     piece: &impl Convex,
     axis: &Axis,
     dir: DVec3,

@@ -72,9 +72,9 @@ fn cell_at(level: u8, w: f64) -> u64 {
 /// of nearly a right angle or more, all cells.
 pub(super) fn spans_under(level: u8, middle: DVec3, share: f64, spans: &mut Vec<Span>) {
     spans.clear();
-    let wide = if share < 0.9 { share / (1.0 - share * share).sqrt() } else { f64::INFINITY };
+    let wide = cube::tangent_of(share);
     for face in Face::ALL {
-        let Some([s, t]) = range(face, middle, wide) else { continue };
+        let Some([s, t]) = cube::part_under(face, middle, wide) else { continue };
         let [columns, rows] = [s, t].map(|w| w.map(|w| cell_at(level, w)));
         let quads = QUADS as u64;
         for y in rows[0] / quads..=rows[1] / quads {
@@ -91,30 +91,6 @@ pub(super) fn spans_under(level: u8, middle: DVec3, share: f64, spans: &mut Vec<
             }
         }
     }
-}
-
-/// The part of a face, `s` and `t` from and to, that a cone around a direction covers. `wide`: tangent of its angle.
-fn range(face: Face, dir: DVec3, wide: f64) -> Option<[[f64; 2]; 2]> {
-    let (axis, sign) = face.axis();
-    let ((s_axis, s_sign), t_axis) = face.tangent_axes();
-    let depth = dir[axis] * sign as f64;
-    if wide > 0.2 {
-        return Some([[-1.0, 1.0]; 2]);
-    }
-    // A face ends 55 degrees from its middle; the cone is at most 12 wide.
-    if depth <= 0.3 * dir.length() {
-        return None;
-    }
-    let at = [dir[s_axis] * s_sign as f64 / depth, dir[t_axis] / depth];
-    let out = (at[0] * at[0] + at[1] * at[1]).sqrt();
-    // On the plane of the face an angle is stretched by at most the square of the secant at its far end.
-    let far = (out + wide) / (1.0 - out * wide);
-    let reach = wide * (1.0 + far * far) + 1e-12;
-    let part = |v: f64| {
-        (v - reach <= 1.0 && v + reach >= -1.0)
-            .then(|| [v - reach, v + reach].map(|v| cube::unbend(v.clamp(-1.0, 1.0))))
-    };
-    Some([part(at[0])?, part(at[1])?])
 }
 
 #[cfg(test)]

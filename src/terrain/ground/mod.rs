@@ -8,7 +8,7 @@
 //! Answers do not depend on what was asked before: blocks that are dropped and made again are the same to the bit.
 
 mod block;
-mod convex;
+pub(crate) mod convex;
 mod lattice;
 mod walker;
 
@@ -22,10 +22,10 @@ use lattice::{BlockId, Span};
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
-pub use walker::{Walker, WalkerBody};
+pub use walker::{Walkable, Walker, WalkerBody};
 
 /// A sweep stops this far from what it would meet.
-const TOUCH_M: f64 = 1e-4;
+pub(crate) const TOUCH_M: f64 = 1e-4;
 /// Width of the cells of a new patch.
 const FINEST_M: f64 = 0.25;
 /// Cells are no wider than the radius of a shape over this, or than the patch's finest.
@@ -351,7 +351,7 @@ impl GroundPatch {
 }
 
 impl Axis {
-    fn of(capsule: &Capsule) -> Self {
+    pub(crate) fn of(capsule: &Capsule) -> Self {
         let [from_m, to_m] = capsule.ends_planet_m;
         Self { from_m, to_m }
     }

@@ -7,7 +7,7 @@
 
 use super::GroundPatch;
 use crate::planet::Planet;
-use crate::terrain::contact::{Capsule, Contact};
+use crate::terrain::contact::{Capsule, Contact, Sweep};
 use glam::DVec3;
 
 /// Longest time of a step: the rest is dropped.
@@ -16,8 +16,14 @@ const MOST_SECS: f64 = 0.25;
 const MOST_SLIDES: usize = 4;
 /// Shares of the skin between which the gap of one who stands may be.
 const RESTING: [f64; 2] = [0.25, 2.0];
+/// Share of a step that is lifted beside a wall that leans over.
+const LEAST_LIFT: f64 = 0.25;
+/// What has a normal with less than this share upwards is a wall.
+const STEEP: f64 = 0.3;
 /// What falls by less than this share of a step under gravity is held.
 const HELD: f64 = 1e-3;
+/// The same between two sides.
+const WEDGED: f64 = 0.05;
 /// The Earth's, m/s² and metres.
 const EARTH: [f64; 2] = [9.81, 6_371_000.0];
 
@@ -76,6 +82,39 @@ impl WalkerBody {
     }
 }
 
+/// Obstacles of a walker: what it stands on and what stops it.
+///
+/// [`GroundPatch`] is the ground alone, `life::Surroundings` the ground with trunks and stones.
+pub trait Walkable {
+    /// The ground on which they stand.
+    fn ground(&mut self) -> &mut GroundPatch;
+
+    /// As [`GroundPatch::contact`], with the nearest of all obstacles.
+    fn contact(&mut self, capsule: &Capsule, within_m: f64) -> Option<Contact>;
+
+    /// The way out of what stands on the ground, for a capsule that is put into it; zero for one that is free.
+    fn way_aside(&mut self, _capsule: &Capsule, _skin_m: f64) -> DVec3 {
+        DVec3::ZERO
+    }
+
+    /// As [`GroundPatch::sweep`], until the first of all obstacles.
+    fn sweep(&mut self, capsule: &Capsule, motion_planet_m: DVec3, skin_m: f64) -> Option<Sweep>;
+}
+
+impl Walkable for GroundPatch {
+    fn ground(&mut self) -> &mut GroundPatch {
+        self
+    }
+
+    fn contact(&mut self, capsule: &Capsule, within_m: f64) -> Option<Contact> {
+        GroundPatch::contact(self, capsule, within_m)
+    }
+
+    fn sweep(&mut self, capsule: &Capsule, motion_planet_m: DVec3, skin_m: f64) -> Option<Sweep> {
+        GroundPatch::sweep(self, capsule, motion_planet_m, skin_m)
+    }
+}
+
 /// Where a walker would come to stand.
 struct Landing {
     feet_m: DVec3,
@@ -89,12 +128,22 @@ impl Walker {
     }
 
     /// A walker on the ground in a direction.
-    pub fn on_ground(body: WalkerBody, patch: &mut GroundPatch, dir_planet: DVec3) -> Self {
-        let up = crate::terrain::points::unit(dir_planet);
-        let ground_m = patch.terrain().planet().radius_m() + patch.height_m(up);
+    pub fn on_ground(body: WalkerBody, patch: &mut impl Walkable, dir_planet: DVec3) -> Self {
+        let mut up = crate::terrain::points::unit(dir_planet);
         // Beside a slope the body touches before the feet do: it comes down from where it is free.
         let high_m = body.radius_m + body.step_m + body.skin_m;
-        let mut walker = Self::new(body, up * (ground_m + high_m));
+        let over = |patch: &mut GroundPatch, up: DVec3| {
+            up * (patch.terrain().planet().radius_m() + patch.height_m(up) + high_m)
+        };
+        let mut walker = Self::new(body, over(patch.ground(), up));
+        for _ in 0..MOST_SLIDES {
+            let aside_m = patch.way_aside(&body.capsule_at(walker.feet_planet_m), body.skin_m);
+            if aside_m == DVec3::ZERO {
+                break;
+            }
+            up = (walker.feet_planet_m + aside_m).normalize_or(up);
+            walker.feet_planet_m = over(patch.ground(), up);
+        }
         for _ in 0..MOST_SLIDES {
             let from_m = walker.feet_planet_m;
             match patch.sweep(&body.capsule_at(from_m), up * -2.0 * high_m, body.skin_m) {
@@ -136,7 +185,7 @@ impl Walker {
     /// Advances by a time, at most a quarter of a second. One who stands walks with the part of `wish_m_s` that is
     /// level, slower uphill and downhill by the way that the slope adds; one who falls or slides cannot. What is not
     /// finite counts as no wish, or no time.
-    pub fn step(&mut self, patch: &mut GroundPatch, wish_m_s: DVec3, duration_secs: f64) {
+    pub fn step(&mut self, patch: &mut impl Walkable, wish_m_s: DVec3, duration_secs: f64) {
         let secs = if duration_secs.is_finite() { duration_secs.clamp(0.0, MOST_SECS) } else { 0.0 };
         if secs == 0.0 {
             return;
@@ -145,7 +194,11 @@ impl Walker {
         let wish_m_s = if wish_m_s.is_finite() { wish_m_s - up * wish_m_s.dot(up) } else { DVec3::ZERO };
         match self.support {
             Some(_) if wish_m_s == DVec3::ZERO => self.rest(patch),
-            Some(normal) => self.walk(patch, wish_m_s * normal.dot(up).max(0.0), secs, normal),
+            Some(normal) => {
+                // One who leans on a wall is on level ground.
+                let slope = normal.dot(up);
+                self.walk(patch, wish_m_s * if slope < STEEP { 1.0 } else { slope }, secs, normal);
+            }
             None => self.fall(patch, secs),
         }
     }
@@ -159,19 +212,24 @@ impl Walker {
     }
 
     /// Stays where it is, to the bit, as long as the ground does.
-    fn rest(&mut self, patch: &mut GroundPatch) {
+    fn rest(&mut self, patch: &mut impl Walkable) {
         self.velocity_m_s = DVec3::ZERO;
         let skin_m = self.body.skin_m.max(super::TOUCH_M);
         let [least_m, most_m] = RESTING.map(|share| share * skin_m);
         match patch.contact(&self.body.capsule_at(self.feet_planet_m), most_m) {
             None => self.support = None,
-            Some(contact) if contact.gap_m < least_m => self.feet_planet_m += self.up() * (skin_m - contact.gap_m),
+            Some(contact) if contact.gap_m < least_m => {
+                let (up, normal) = (self.up(), contact.normal_planet);
+                // Beside a wall it goes away from it; else it would climb it.
+                let way = if normal.dot(up) < STEEP { normal } else { up };
+                self.feet_planet_m += way * (skin_m - contact.gap_m);
+            }
             Some(_) => {}
         }
     }
 
     /// One step of one who stands.
-    fn walk(&mut self, patch: &mut GroundPatch, pace_m_s: DVec3, secs: f64, support: DVec3) {
+    fn walk(&mut self, patch: &mut impl Walkable, pace_m_s: DVec3, secs: f64, support: DVec3) {
         let (from_m, up, body) = (self.feet_planet_m, self.up(), self.body);
         let wished_m = pace_m_s * secs;
         let (feet_m, contact) = match self.landing(patch, wished_m) {
@@ -183,7 +241,7 @@ impl Walker {
             }
             None => return self.rest(patch),
         };
-        let normal = contact.normal_planet;
+        let (feet_m, normal) = self.beside(patch, &Landing { feet_m, contact }, wished_m);
         let to_m = if body.holds_on(normal, up) || self.leads_on(patch, wished_m) {
             self.stand(feet_m, normal);
             feet_m
@@ -202,11 +260,12 @@ impl Walker {
     }
 
     /// Where one who stands comes to who cannot go uphill.
-    fn along(&mut self, patch: &mut GroundPatch, wished_m: DVec3, support: DVec3) -> DVec3 {
+    fn along(&mut self, patch: &mut impl Walkable, wished_m: DVec3, support: DVec3) -> DVec3 {
         let (from_m, up, body) = (self.feet_planet_m, self.up(), self.body);
-        let Some(Ok(Landing { feet_m, contact })) = self.landing(patch, wished_m) else { return from_m };
-        if body.holds_on(contact.normal_planet, up) || self.leads_on(patch, wished_m) {
-            self.stand(feet_m, contact.normal_planet);
+        let Some(Ok(landing)) = self.landing(patch, wished_m) else { return from_m };
+        let (feet_m, normal) = self.beside(patch, &landing, wished_m);
+        if body.holds_on(normal, up) || self.leads_on(patch, wished_m) {
+            self.stand(feet_m, normal);
             return feet_m;
         }
         // One who is wedged between steep sides gets out along them, if that is not steep, and slides if not held.
@@ -218,8 +277,54 @@ impl Walker {
         from_m
     }
 
+    /// Where one who would come down on a steep side stands beside it: the feet, and the normal of what holds them. One
+    /// who climbs the edge of a kerb stays there.
+    fn beside(&self, patch: &mut impl Walkable, landing: &Landing, wished_m: DVec3) -> (DVec3, DVec3) {
+        let (body, up, normal) = (self.body, self.up(), landing.contact.normal_planet);
+        let on_side = (landing.feet_m, normal);
+        if body.holds_on(normal, up) {
+            return on_side;
+        }
+        let down_m = up * (-2.0 * body.step_m);
+        let (feet_m, Some(ground)) = self.slide(patch, landing.feet_m, down_m) else { return on_side };
+        if !body.holds_on(ground.normal_planet, up) {
+            return on_side;
+        }
+        let edge_m = (landing.contact.point_planet_m - feet_m).dot(up);
+        let ahead_m = wished_m.normalize_or_zero() * (body.radius_m + wished_m.length());
+        match self.landing(patch, ahead_m) {
+            Some(Ok(ahead)) if self.climbs(&ahead, feet_m, ahead_m, edge_m) => on_side,
+            _ => (feet_m, ground.normal_planet),
+        }
+    }
+
+    /// Whether one gets as far as it should, onto an edge or nearly, and is held there.
+    fn climbs(&self, ahead: &Landing, from_m: DVec3, wished_m: DVec3, edge_m: f64) -> bool {
+        let (gone_m, is_held) = (ahead.feet_m - from_m, self.body.holds_on(ahead.contact.normal_planet, self.up()));
+        is_held && gone_m.dot(wished_m) > 0.9 * wished_m.length_squared() && gone_m.dot(self.up()) > 0.5 * edge_m
+    }
+
+    /// Goes up or down, and along steep sides on the way: where that ends, and what else stops it.
+    fn slide(&self, patch: &mut impl Walkable, from_m: DVec3, motion_m: DVec3) -> (DVec3, Option<Contact>) {
+        let (body, up) = (self.body, self.up());
+        let (mut feet_m, mut left_m) = (from_m, motion_m);
+        for _ in 0..MOST_SLIDES {
+            let Some(hit) = patch.sweep(&body.capsule_at(feet_m), left_m, body.skin_m) else {
+                return (feet_m + left_m, None);
+            };
+            feet_m += left_m * hit.share;
+            let normal = hit.contact.normal_planet;
+            if body.holds_on(normal * normal.dot(up).signum(), up) {
+                return (feet_m, Some(hit.contact));
+            }
+            left_m *= 1.0 - hit.share;
+            left_m -= normal * left_m.dot(normal).min(0.0);
+        }
+        (feet_m, None)
+    }
+
     /// Whether the way leads onto ground that can be stood on, no higher or lower than a step: over the edge of a kerb.
-    fn leads_on(&self, patch: &mut GroundPatch, wished_m: DVec3) -> bool {
+    fn leads_on(&self, patch: &mut impl Walkable, wished_m: DVec3) -> bool {
         let ahead_m = wished_m.normalize_or_zero() * (self.body.radius_m + wished_m.length());
         match self.landing(patch, ahead_m) {
             Some(Ok(landing)) => self.body.holds_on(landing.contact.normal_planet, self.up()),
@@ -229,16 +334,20 @@ impl Walker {
 
     /// Up by a step, along, and down by two: where that ends, or the position in the air of one who went over an edge.
     /// None if there is no way.
-    fn landing(&self, patch: &mut GroundPatch, wished_m: DVec3) -> Option<Result<Landing, DVec3>> {
+    fn landing(&self, patch: &mut impl Walkable, wished_m: DVec3) -> Option<Result<Landing, DVec3>> {
         let (body, up) = (self.body, self.up());
-        let sweep = |patch: &mut GroundPatch, feet_m: DVec3, motion_m: DVec3| {
-            patch.sweep(&body.capsule_at(feet_m), motion_m, body.skin_m)
-        };
-        let lift = sweep(patch, self.feet_planet_m, up * body.step_m);
-        let lifted_m = body.step_m * lift.map_or(1.0, |lift| lift.share);
+        let lift = patch.sweep(&body.capsule_at(self.feet_planet_m), up * body.step_m, body.skin_m);
+        let mut lifted_m = body.step_m * lift.map_or(1.0, |lift| lift.share);
         let (mut feet_m, mut left_m) = (self.feet_planet_m + up * lifted_m, wished_m);
+        // A wall that leans over it lets it lift its feet a little, away from the wall.
+        let lacking_m = LEAST_LIFT * body.step_m - lifted_m;
+        if lacking_m > 0.0 {
+            (feet_m, _) = self.slide(patch, feet_m, up * lacking_m);
+            lifted_m = (feet_m - self.feet_planet_m).dot(up).max(0.0);
+        }
+        let mut sweep = |feet_m: DVec3, motion_m: DVec3| patch.sweep(&body.capsule_at(feet_m), motion_m, body.skin_m);
         for _ in 0..MOST_SLIDES {
-            let Some(hit) = sweep(patch, feet_m, left_m) else {
+            let Some(hit) = sweep(feet_m, left_m) else {
                 feet_m += left_m;
                 break;
             };
@@ -249,7 +358,7 @@ impl Walker {
             left_m -= wall * left_m.dot(wall).min(0.0);
         }
         let fall_m = lifted_m + body.step_m;
-        match sweep(patch, feet_m, up * -fall_m) {
+        match sweep(feet_m, up * -fall_m) {
             Some(hit) if hit.contact.gap_m < 0.0 => None,
             Some(hit) => Some(Ok(Landing { feet_m: feet_m - up * (fall_m * hit.share), contact: hit.contact })),
             None => Some(Err(feet_m - up * lifted_m)),
@@ -257,7 +366,7 @@ impl Walker {
     }
 
     /// One step of one who falls or slides.
-    fn fall(&mut self, patch: &mut GroundPatch, secs: f64) {
+    fn fall(&mut self, patch: &mut impl Walkable, secs: f64) {
         let (from_m, up, body) = (self.feet_planet_m, self.up(), self.body);
         let friction = libm::tan(body.slope_limit_rad);
         let fallen_m_s = body.gravity_m_s2 * secs;
@@ -294,8 +403,10 @@ impl Walker {
             sides[met] = normal;
             met += 1;
         }
-        let is_held = (from_m - self.feet_planet_m).dot(up) < HELD * fallen_m_s * secs;
-        if let Some(normal) = sides[..met].last().filter(|_| is_held && self.velocity_m_s.length() < HELD * fallen_m_s)
+        // Between two sides it comes to rest a little early: each pushes it towards the other.
+        let held = if met > 1 { WEDGED } else { HELD };
+        let is_held = (from_m - self.feet_planet_m).dot(up) < held * fallen_m_s * secs;
+        if let Some(normal) = sides[..met].last().filter(|_| is_held && self.velocity_m_s.length() < held * fallen_m_s)
         {
             self.velocity_m_s = DVec3::ZERO;
             self.stand(self.feet_planet_m, *normal);
