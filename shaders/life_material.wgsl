@@ -13,7 +13,7 @@ const GRAIN_HEIGHT: f32 = 0.10;
 const LEAF_M: f32 = 0.09;
 // Width of a cluster in pixels, at the least, and as a share of the height of the object, at the most.
 const CLUSTER_PIXELS: f32 = 3.0;
-const WIDEST_CLUSTER: f32 = 0.03;
+const WIDEST_CLUSTER: f32 = 0.055;
 
 struct ObjectMaterial {
     // Factor on the albedo
