@@ -3,6 +3,7 @@
 // exp(-areas). As in geometric-optical models of canopies (Li and Strahler, 1985), sun and eye look through the same
 // gaps. Rows of the table: src/render/life/canopy.rs.
 #include "neighbours.wgsl"
+#include "crowns.wgsl"
 
 // A population at a pixel.
 struct CanopyLayer {
@@ -53,8 +54,6 @@ struct CanopyPlace {
     v: vec3f,
 }
 
-#include "crowns.wgsl"
-
 // As in src/life/suitability.rs.
 fn between(x: f32, from_x: f32, to_x: f32, softness: f32) -> f32 {
     return saturate1(1.0 - max(from_x - x, x - to_x) / softness);
@@ -81,7 +80,7 @@ const STAND_WIDTHS: f32 = 24.0;
 
 // Stands of a population: a noise of mean 0, about -0.5 to 0.5.
 fn stands(width_m: f32, place: CanopyPlace) -> f32 {
-    let tile_m = WRAP_FAR_M / round(WRAP_FAR_M / (STAND_WIDTHS * width_m));
+    let tile_m = wrapping_m(STAND_WIDTHS * width_m);
     let lod = log2(max(place.footprint_m, 1e-4) * NOISE_TILE_SIDE / tile_m);
     let share = 1.0 - smoothstep(3.0, 5.5, lod);
     if share <= 0.0 { return 0.0; }
@@ -115,7 +114,8 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         let shape = biome_param(id, row + 1);
         let kind = biome_param(id, row + 4);
         let size = biome_param(id, row + 5).zw;
-        let stand = select(0.0, stands(kind.x, place), i == most);
+        var stand = 0.0;
+        if i == most { stand = stands(kind.x, place); }
         let density = densities[i] * max(1.0 + GROUPS * kind.y * stand, 0.0);
         let areas = density * vec2f(color.w, shape.x);
         // As in src/life/scenery.rs.

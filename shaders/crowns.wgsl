@@ -18,10 +18,14 @@ const TWIGS: vec2f = vec2f(0.45, 1.4);
 // Bends of the lattice, so that rows do not show: their period and their size in cells.
 const BEND_CELLS: f32 = 48.0;
 const BEND: f32 = 1.6;
+// Sizes of domes, as factors: the least, and how much larger the largest is. Share of their height that goes with it.
+const LEAST_SIZE: f32 = 0.7;
+const SIZES: f32 = 0.45;
+const HEIGHTS: f32 = 0.7;
 // Way of a dome within its cell, in cells.
 const JITTER: f32 = 0.65;
 // Cosine to the normal of the ground below which rays are taken as steeper: flatter ones would see the highest tops
-// alone.
+// alone. Of those that are much flatter the mean is shown.
 const LEAST_MU: f32 = 0.17;
 // Way of the ray from one step to the next, at the most, in cells.
 const STEP_CELLS: f32 = 0.4;
@@ -49,6 +53,9 @@ struct CrownsSeen {
     relief: vec2f,
 }
 
+// The period next to a wanted one that divides the wrapped position.
+fn wrapping_m(wanted_m: f32) -> f32 { return WRAP_FAR_M / round(WRAP_FAR_M / wanted_m); }
+
 // The dome over a place: height of its surface, 0 without one; place in the dome, in radii; a random number.
 fn dome_at(q: vec2f, field: CrownField) -> vec4f {
     var best = vec4f(0.0);
@@ -60,11 +67,11 @@ fn dome_at(q: vec2f, field: CrownField) -> vec4f {
         let wrapped = cell - field.cells * floor(cell / field.cells);
         let random = unit_from_hash(hash3(vec3u(vec2u(wrapped), u32(field.cells))));
         if random.z >= field.share { continue; }
-        let size = 0.7 + 0.45 * fract(random.z * 17.0);
+        let size = LEAST_SIZE + SIZES * fract(random.z * 17.0);
         let away = (q - vec2f(shift, 0.0) - cell - 0.5 - JITTER * (random.xy - 0.5)) / (field.radius * size);
         let inside = 1.0 - dot(away, away);
         if inside <= 0.0 { continue; }
-        let height_m = field.height_m * (0.3 + 0.7 * size) - field.depth_m * size * (1.0 - sqrt(inside));
+        let height_m = field.height_m * (1.0 - HEIGHTS + HEIGHTS * size) - field.depth_m * size * (1.0 - sqrt(inside));
         if height_m > best.x { best = vec4f(height_m, away, fract(random.z * 101.0)); }
     }
     return best;
@@ -93,16 +100,15 @@ fn crowns_seen(
     if clear <= 0.0 { return out; }
     // As many domes as objects, each as wide as one.
     let wanted_m = width_m * max(sqrt(0.25 * PI / max(covered, 1e-4)), LEAST_SPACING);
-    let cells = round(WRAP_FAR_M / wanted_m);
-    let cell_m = WRAP_FAR_M / cells;
+    let cell_m = wrapping_m(wanted_m);
     let depth_m = min(DOME_DEPTH * width_m, 0.8 * height_m);
-    let field = CrownField(cells, cell_m, 0.5 * width_m / cell_m, height_m, depth_m, density);
+    let field = CrownField(round(WRAP_FAR_M / cell_m), cell_m, 0.5 * width_m / cell_m, height_m, depth_m, density);
 
     let axes = lattice_axes(normalize(body.eye_km + place.rel_m * 0.001));
     let along_x = axes[0] - n * dot(axes[0], n);
     let along_y = axes[1] - n * dot(axes[1], n);
     let at_m = body.eye_wrap_far_m + place.rel_m;
-    let bend_m = WRAP_FAR_M / round(WRAP_FAR_M / (BEND_CELLS * cell_m));
+    let bend_m = wrapping_m(BEND_CELLS * cell_m);
     let bent = textureSampleLevel(noise_tile, repeated, at_m.yzx / bend_m, 0.0).r;
     let bent_too = textureSampleLevel(noise_tile, repeated, at_m.zxy / bend_m, 0.0).r;
     let foot = at_m * axes / cell_m + BEND * vec2f(bent, bent_too);
@@ -110,7 +116,7 @@ fn crowns_seen(
     let mu = max(dot(n, v), LEAST_MU);
     let to_eye = (v - n * dot(n, v)) * axes / (mu * cell_m);
     let steps = select(10, 5, frame.pattern_quality == 0.0);
-    let top_m = 1.105 * height_m;
+    let top_m = height_m * (1.0 - HEIGHTS + HEIGHTS * (LEAST_SIZE + SIZES));
     let step_m = min(top_m, f32(steps) * STEP_CELLS / max(length(to_eye), 1e-6)) / f32(steps);
     var z = top_m;
     var over_m = -top_m;
@@ -150,7 +156,7 @@ fn crowns_seen(
         let over = dome_at(foot + to_eye * z + to_sun * away_m, field).x - z - sun_mu * away_m;
         shadow = max(shadow, saturate1(over / (0.15 * width_m)));
     }
-    let twigs_m = WRAP_FAR_M / round(WRAP_FAR_M / (TWIG_WIDTHS * width_m));
+    let twigs_m = wrapping_m(TWIG_WIDTHS * width_m);
     let lod = log2(max(place.distance_m * frame.pixel_rad, 1e-4) * NOISE_TILE_SIDE / twigs_m);
     let hit = (at_m + v * (z / mu)).yzx / twigs_m;
     let twig = textureSampleLevel(noise_tile, repeated, hit, max(lod, 0.0)).r;

@@ -109,9 +109,10 @@ fn fragment(in: Surface) -> Output {
     let distance_m = length(in.rel_m);
     let material = object_material(in.material, leaf, in.place_m.xyz, in.size_m, distance_m * frame.pixel_rad);
     let along = mat2x3f(dpdx(in.rel_m), dpdy(in.rel_m));
-    let n = raised(normalize(in.normal + material.tilt), along, vec2f(dpdx(material.height_m), dpdy(material.height_m)));
-    let noise = pixel_noise(in.position.xy);
-    if material.gap > 0.5 || (leaf > 0.5 && distance_m < LENS_M * (0.4 + 0.6 * noise)) { discard; }
+    let rise = vec2f(dpdx(material.height_m), dpdy(material.height_m));
+    let n = raised(normalize(in.normal + material.tilt), along, rise);
+    let is_at_lens = leaf > 0.5 && distance_m < LENS_M * (0.4 + 0.6 * pixel_noise(in.position.xy));
+    if is_at_lens || material.gap > 0.5 { discard; }
     let facing = dot(n, l);
     // Light is spread within a crown: its edge between light and shade is soft.
     let soft = leaf * mix(LEAF_SOFT.x, LEAF_SOFT.y, in.level);

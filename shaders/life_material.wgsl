@@ -1,5 +1,5 @@
 // Material of objects near the eye: furrows of bark, grain and cracks of rock, single leaves. All are functions of the
-// place in the form, in metres, with the mean of what the mesh has; each fades as it becomes narrower than a pixel.
+// place in the form, in metres, whose tint has a mean of 1; each fades as it becomes narrower than a pixel.
 #include "math.wgsl"
 #include "shared.wgsl"
 
@@ -26,6 +26,12 @@ struct ObjectMaterial {
     gap: f32,
 }
 
+const PLAIN: ObjectMaterial = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
+// Means of `furrows`, of cracks, and of the darkness at the edge of a leaf where it is not cut out: by sampling.
+const FURROWS_MEAN: f32 = 0.60;
+const CRACKS_MEAN: f32 = 0.14;
+const EDGE_MEAN: f32 = 0.05;
+
 fn lattice_value(cell: vec3i) -> f32 { return unit_from_hash(hash3(vec3u(cell))).x; }
 
 // Smooth noise of mean 0.5 with cells of length 1.
@@ -47,13 +53,13 @@ fn clear_at(period_m: f32, pixel_m: f32) -> f32 { return 1.0 - smoothstep(0.15, 
 fn furrows(q: vec3f) -> f32 { return smoothstep(0.02, 0.40, abs(lattice_noise(q) - 0.5) * 2.0); }
 
 fn bark(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
-    var out = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
+    var out = PLAIN;
     let bend = 0.08 * (lattice_noise(p_m * 3.1) - 0.5);
     for (var i = 0; i < 2; i++) {
         let period_m = FURROW_M * select(1.0, 0.4, i == 1);
         let clear = clear_at(period_m.x, pixel_m);
         if clear <= 0.0 { break; }
-        let height = furrows((p_m + bend) / period_m.xxy + 31.0 * f32(i)) - 0.47;
+        let height = furrows((p_m + bend) / period_m.xxy + 31.0 * f32(i)) - FURROWS_MEAN;
         out.tint *= 1.0 + clear * select(0.8, 0.6, i == 1) * height;
         out.height_m += clear * FURROW_DEPTH * period_m.x * height;
     }
@@ -61,7 +67,7 @@ fn bark(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
 }
 
 fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
-    var out = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
+    var out = PLAIN;
     var shade = 1.0;
     for (var i = 0; i < 3; i++) {
         let period_m = min(GRAIN_M[i], 0.5 * size_m / f32(1 + 2 * i));
@@ -69,8 +75,8 @@ fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
         if clear <= 0.0 { break; }
         let noise = lattice_noise(p_m / period_m + 17.0 * f32(i)) - 0.5;
         // Cracks between grains of the widest period.
-        let crack = select(0.0, 1.0 - smoothstep(0.0, 0.07, abs(noise)), i == 0);
-        shade *= 1.0 + clear * (0.55 * noise - 0.35 * (crack - 0.17));
+        let crack = select(0.0, 1.0 - smoothstep(0.0, 0.07, abs(noise)) - CRACKS_MEAN, i == 0);
+        shade *= 1.0 + clear * (0.55 * noise - 0.35 * crack);
         out.height_m += clear * GRAIN_HEIGHT * period_m * (noise - 0.25 * crack);
     }
     // Lichen and weather stain the stone.
@@ -96,7 +102,7 @@ fn leaves_of(width_m: f32, p_m: vec3f) -> ObjectMaterial {
         }
     }
     let edge = smoothstep(0.10, 0.45, nearest);
-    let tint = 1.0 + vec3f(0.45, 0.40, 0.25) * (found.x - 0.5) + 0.25 * (0.4 - edge);
+    let tint = 1.0 + vec3f(0.45, 0.40, 0.25) * (found.x - 0.5) + 0.25 * (EDGE_MEAN - edge);
     return ObjectMaterial(tint, 0.0, found - 0.5, smoothstep(0.10, 0.30, nearest));
 }
 
@@ -106,7 +112,7 @@ fn leaves(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     let octave = log2(max(CLUSTER_PIXELS * pixel_m / LEAF_M, 1.0));
     let width_m = LEAF_M * exp2(floor(octave));
     let clear = 1.0 - smoothstep(0.5, 1.0, 0.5 * LEAF_M * exp2(octave) / (WIDEST_CLUSTER * size_m));
-    if clear <= 0.0 { return ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0); }
+    if clear <= 0.0 { return PLAIN; }
     let fine = leaves_of(width_m, p_m);
     let coarse = leaves_of(2.0 * width_m, p_m);
     let share = fract(octave);
@@ -121,5 +127,5 @@ fn object_material(kind: u32, leaf: f32, p_m: vec3f, size_m: f32, pixel_m: f32) 
     if kind == ROCK { return rock(p_m, size_m, pixel_m); }
     if kind >= LEAFY && leaf < 0.5 { return bark(p_m, pixel_m); }
     if kind == LEAFY { return leaves(p_m, size_m, pixel_m); }
-    return ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
+    return PLAIN;
 }

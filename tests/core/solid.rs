@@ -63,7 +63,7 @@ fn shared() -> std::sync::MutexGuard<'static, ObjectPatch> {
     PATCH.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// A capsule at a place of the forest, so many metres over the ground.
+/// Capsule over a place of the forest, at a height above the ground in metres.
 fn capsule(terrain: &Terrain, [east_m, north_m, over_m]: [f64; 3], length_m: f64, radius_m: f64) -> Capsule {
     let dir = Tangent::new(middle()).direction(east_m / RADIUS_M, north_m / RADIUS_M);
     let middle_m = dir * (RADIUS_M + terrain.height_m(dir) + over_m);

@@ -1,4 +1,5 @@
-//! Convex hulls of points: made by their corners from the outside in, and as pieces that capsules and rays meet.
+//! Convex hulls of points, as pieces that capsules and rays meet. They are made here, and not by a library of physics,
+//! because queries must have the same bits on every machine and in every version.
 
 use crate::terrain::ground::convex::{Axis, Convex, Nearest, Triangle};
 use glam::DVec3;
@@ -50,9 +51,9 @@ impl Face {
 }
 
 impl Hull {
-    /// A hull of points that leaves none farther outside than `tolerance`, of at most so many corners. It begins with
-    /// four points and takes the farthest point outside as the next corner (quickhull; Barber, Dobkin and Huhdanpaa
-    /// 1996). Points in a plane have none.
+    /// Hull of points, of at most `most_corners` corners. With corners enough, no point is outside by more than
+    /// `tolerance`. None for points in a plane. The method is quickhull (Barber, Dobkin and Huhdanpaa 1996): from four
+    /// points on, the point farthest outside is the next corner.
     pub(super) fn new(points: &[DVec3], tolerance: f64, most_corners: usize) -> Option<Self> {
         let mut hull = Self { faces: first_faces(points)? };
         let mut outside: Vec<DVec3> = points.to_vec();

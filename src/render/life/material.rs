@@ -6,13 +6,13 @@ use crate::planet::Form;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Material {
-    /// One without a pattern.
+    /// Colour of the mesh, without a pattern.
     Plain,
-    /// Grain, cracks and stains.
+    /// Grain, cracks and stains of stone.
     Rock,
-    /// Bark, and leaves that are told apart.
+    /// Bark on wood, and single leaves on blades.
     Leafy,
-    /// Bark, and needles as the mesh has them.
+    /// Bark on wood; needles are those of the mesh.
     Needled,
 }
 
