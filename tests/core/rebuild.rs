@@ -276,17 +276,17 @@ fn world_maps_are_solved_for_what_they_read_and_never_before_the_first_surface()
     });
     let all_surfaces = |planet: &Planet| {
         builder.request(&Arc::new(planet.clone()), &view).unwrap();
-        let mut seen = Vec::new();
-        // The last surface may be there before the first look.
+        let mut seen: Vec<Arc<Surface>> = Vec::new();
+        // The last surface may be there before the first look; a bell may still be that of the planet before.
         loop {
             surfaces.recv().unwrap();
             seen.extend(builder.surface());
+            seen.retain(|surface| surface.terrain.planet().as_ref() == planet);
             surfaces.recv().unwrap();
-            if builder.has_all_tiles() {
+            if builder.has_all_tiles() && !seen.is_empty() {
                 break;
             }
         }
-        seen.retain(|surface| surface.terrain.planet().as_ref() == planet);
         seen
     };
     let runs = |seen: &[Arc<Surface>]| seen.iter().map(|surface| surface.stats.maps.runs).collect::<Vec<_>>();

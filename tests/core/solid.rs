@@ -335,6 +335,8 @@ fn what_is_not_finite_or_far_too_large_meets_nothing() {
     }
     assert_eq!(patch.contact(&good, f64::NAN), None);
     assert_eq!(patch.sweep(&good, DVec3::ZERO, f64::NAN), None);
+    // A motion through the planet has an end, however long it is.
+    assert_eq!(patch.sweep(&good.moved(middle() * -40.0), middle() * -1e12, 0.01), None);
     assert_eq!(patch.contact(&Capsule::sphere(DVec3::X * RADIUS_M, 1e9), 0.0), None);
     assert_eq!(patch.raycast(middle() * RADIUS_M, DVec3::ZERO, &RayLimits::default()), None);
     let ended = RayLimits::default().from_m(5.0).to_m(1.0);

@@ -116,7 +116,7 @@ fn objects(planet: &Planet, dirs: &[DVec3]) -> Result<Value, String> {
     let forms_ms = begun.elapsed().as_secs_f64() * 1e3;
     let capsule = |dir: &DVec3| body.capsule_at(*dir * (radius_m + terrain.height_m(*dir) + EYE_M));
     let capsules: Vec<Capsule> = dirs.iter().map(capsule).collect();
-    let along = |capsule: &Capsule| capsule.ends_planet_m[0].any_orthonormal_vector();
+    let along = |capsule: &Capsule| capsule.ends_planet_m[0].normalize().any_orthonormal_vector();
     let limits = RayLimits::default().to_m(RAY_M);
     // All cells around are placed first.
     for capsule in &capsules {

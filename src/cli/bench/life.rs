@@ -104,7 +104,8 @@ fn frame(
 fn frame_of(gpu: &Gpu, surface: &Surface, view: View) -> Option<(f64, FrameStats)> {
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).ok()?;
     let eye = view.camera.position_planet_m;
-    let sun = (eye.normalize() + eye.any_orthonormal_vector().normalize()).normalize();
+    let up = eye.normalize();
+    let sun = (up + up.any_orthonormal_vector()).normalize();
     let mut stats = FrameStats::default();
     let mut draw = || {
         let scene = Scene::of_planet(surface, view, sun);

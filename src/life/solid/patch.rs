@@ -19,8 +19,8 @@ const KEPT_BYTES: usize = 16 << 20;
 const PIECE_M: f64 = 16.0;
 /// Questions that reach farther than this from their middle meet no object.
 const LARGEST_M: f64 = 500.0;
-/// A ray looks at pieces of this length in all.
-const RAY_M: f64 = 10_000.0;
+/// Length of the pieces that a motion or a ray looks at, in all.
+const LOOKED_M: f64 = 10_000.0;
 /// From this length on the bounds of the ground are asked for a shorter way.
 const FAR_M: f64 = 4.0 * PIECE_M;
 
@@ -171,7 +171,7 @@ impl ObjectPatch {
     /// a stone is stopped at 0, wherever it goes, and one whose axis is in a trunk may leave.
     ///
     /// It stops up to a tenth of a millimetre before the skin's width. Capsules that reach farther than 500 m meet no
-    /// object.
+    /// object. It looks no farther than 10 km along its way among objects.
     pub fn sweep(&mut self, capsule: &Capsule, motion_planet_m: DVec3, skin_m: f64) -> Option<Met<Sweep>> {
         self.sweep_up_to(capsule, motion_planet_m, skin_m, 1.0)
     }
@@ -192,8 +192,8 @@ impl ObjectPatch {
         let (length_m, half_m) = (motion_planet_m.length(), 0.5 * axis.length_m());
         let dir = if length_m > 0.0 { motion_planet_m / length_m } else { return None };
         let (piece_m, end_m) = (PIECE_M.max(half_m + 2.0 * wide_m), length_m * share);
-        let mut gone_m = 0.0;
-        while gone_m < end_m {
+        let (mut gone_m, mut looked_m) = (0.0, 0.0);
+        while gone_m < end_m && looked_m < LOOKED_M {
             let (left_m, here) = (end_m - gone_m, capsule.moved(dir * gone_m));
             if let Some(free_m) = self.free_m(&here, left_m) {
                 gone_m += free_m;
@@ -204,7 +204,7 @@ impl ObjectPatch {
                 let contact = contact_of(solid, form, &near, capsule.radius_m);
                 return Some(met(solid, form, Sweep { share: (gone_m + more_m) / length_m, contact }));
             }
-            gone_m += piece_m;
+            (gone_m, looked_m) = (gone_m + piece_m, looked_m + piece_m);
         }
         None
     }
@@ -220,7 +220,7 @@ impl ObjectPatch {
         let dir = dir_planet.try_normalize()?;
         let [mut at_m, end_m] = self.ray_limits(origin_planet_m, dir, limits)?;
         let mut looked_m = 0.0;
-        while at_m <= end_m && looked_m < RAY_M {
+        while at_m <= end_m && looked_m < LOOKED_M {
             let point_m = origin_planet_m + dir * at_m;
             if let Some(free_m) = self.free_m(&Capsule::sphere(point_m, TOUCH_M), end_m - at_m) {
                 at_m += free_m;
