@@ -3,7 +3,9 @@
 // exp(-areas). As in geometric-optical models of canopies (Li and Strahler, 1985), sun and eye look through the same
 // gaps. Rows of the table: src/render/life/canopy.rs.
 #include "neighbours.wgsl"
+#include "stands.wgsl"
 #include "crowns.wgsl"
+#include "life_material.wgsl"
 
 // A population at a pixel.
 struct CanopyLayer {
@@ -36,6 +38,10 @@ struct Canopy {
     floor: f32,
     // Distance over height of the ray to the eye
     eye_tangent: f32,
+    // Light that leaves let through to the floor, as shares of the sun's
+    through: vec3f,
+    // What has fallen from the objects: its colour, and the share of the floor that it covers
+    litter: vec4f,
 }
 
 // What decides about the density at a pixel.
@@ -72,21 +78,8 @@ fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
         * between(place.temperature_c, climate.z, climate.w, SOFT_C);
 }
 
-// Strength of the mottling of stands: in light, and in density where objects stand in groups. Period of its noise in
-// widths of a crown.
-const STANDS: f32 = 0.18;
+// Strength of stands in the density of objects that stand in groups.
 const GROUPS: f32 = 1.6;
-const STAND_WIDTHS: f32 = 24.0;
-
-// Stands of a population: a noise of mean 0, about -0.5 to 0.5.
-fn stands(width_m: f32, place: CanopyPlace) -> f32 {
-    let tile_m = wrapping_m(STAND_WIDTHS * width_m);
-    let lod = log2(max(place.footprint_m, 1e-4) * NOISE_TILE_SIDE / tile_m);
-    let share = 1.0 - smoothstep(3.0, 5.5, lod);
-    if share <= 0.0 { return 0.0; }
-    let at = (body.eye_wrap_far_m + place.rel_m).yzx / tile_m;
-    return share * (2.0 * textureSampleLevel(noise_tile, repeated, at, max(lod, 0.0)).r - 1.0);
-}
 
 // Adds the layers of a biome, the highest first. Single crowns are those of the layer that covers most.
 fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, place: CanopyPlace) {
@@ -107,6 +100,9 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         open *= rest;
     }
     open = 1.0;
+    var bare = 1.0;
+    var fallen = vec4f(0.0);
+    var through = vec4f(0.0);
     for (var i = 0; i < count && most_seen > 0.0; i++) {
         if densities[i] <= 0.0 { continue; }
         let row = CANOPY_ROW + i * CANOPY_LAYER_ROWS;
@@ -115,25 +111,34 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         let kind = biome_param(id, row + 4);
         let size = biome_param(id, row + 5).zw;
         var stand = 0.0;
-        if i == most { stand = stands(kind.x, place); }
+        if i == most { stand = stands(kind.x, body.eye_wrap_far_m + place.rel_m, place.footprint_m); }
         let density = densities[i] * max(1.0 + GROUPS * kind.y * stand, 0.0);
         let areas = density * vec2f(color.w, shape.x);
         // As in src/life/scenery.rs.
         let drawn = saturate1((1.0 - place.distance_m / max(shape.w, 1e-3)) / (1.0 - FULL_SHARE));
         var rest = exp(-(1.0 - drawn) * (areas.x + areas.y * (*canopy).eye_tangent));
         var relief = vec2f(1.0);
+        var albedo = color.rgb;
         if i == most && drawn < 1.0 {
             let left = (1.0 - drawn) * density;
             let crowns = crowns_seen(kind.x, size.y, color.w, shape.x, left, place, body.suns[0].dir);
             rest = mix(rest, 1.0 - crowns.hit, crowns.clear);
             relief = mix(vec2f(1.0), crowns.relief, crowns.clear) * (1.0 + STANDS * stand);
+            albedo = hue_of_one(color.rgb, mix(0.5, crowns.random, crowns.clear) + STAND_HUES * stand);
         }
         (*canopy).layers[end] = CanopyLayer(
-            color.rgb, share * open * (1.0 - rest), areas, kind.w, size.x, size.y, relief, vec2<i32>(id, row),
+            albedo, share * open * (1.0 - rest), areas, kind.w, size.x, size.y, relief, vec2<i32>(id, row),
         );
         open *= rest;
         end += 1;
+        let litter = biome_param(id, row + 7);
+        let littered = litter.w * (1.0 - exp(-areas.x / LITTER_AREA));
+        bare *= 1.0 - littered;
+        fallen += littered * vec4f(litter.rgb, 1.0);
+        through += kind.w * areas.x * vec4f(biome_param(id, row + 8).rgb, 1.0);
     }
+    (*canopy).through += share * through.rgb / max(through.w, 1e-6);
+    (*canopy).litter += share * (1.0 - bare) * vec4f(fallen.rgb / max(fallen.w, 1e-6), 1.0);
     (*canopy).floor -= share * (1.0 - open);
     if number == 0 { (*canopy).ends = vec2<i32>(end); } else { (*canopy).ends.y = end; }
     (*canopy).shares[number] = share;
@@ -148,6 +153,30 @@ fn canopy_at(ids: vec2<i32>, shares: vec2f, place: CanopyPlace) -> Canopy {
         if ids[i] >= 0 && shares[i] > 0.004 { add_canopy(&out, i, ids[i], shares[i], place); }
     }
     return out;
+}
+
+// Width of a fallen leaf, metres; brightness of the soil between leaves and of leaves, as factors on the mean.
+const FALLEN_M: f32 = 0.075;
+const FALLEN_LIGHT: vec2f = vec2f(0.62, 0.62);
+
+// Colour of the ground with what has fallen on it. `ground`: without; `contrast`: brightness of its pattern.
+fn littered(canopy: Canopy, ground: vec3f, contrast: f32, place: CanopyPlace) -> vec3f {
+    let share = canopy.litter.w;
+    if share <= 0.003 { return ground; }
+    var color = canopy.litter.rgb / share * mix(1.0, contrast, 0.5);
+    let clear = 1.0 - smoothstep(0.12, 0.45, place.footprint_m / FALLEN_M);
+    if clear > 0.0 && frame.pattern_quality > 0.0 {
+        // Two layers, so that neither shows its lattice.
+        let at_m = body.eye_wrap_m + place.rel_m;
+        let upper = leaves_of(FALLEN_M, at_m);
+        let lower = leaves_of(0.61 * FALLEN_M, at_m.yzx + 0.3 * at_m.zxy);
+        let hue = mix(lower.tilt, upper.tilt, 1.0 - upper.gap).x;
+        let light = FALLEN_LIGHT.x + FALLEN_LIGHT.y * (1.0 - upper.gap * lower.gap);
+        color *= mix(vec3f(1.0), light * (1.0 + hue * vec3f(0.8, 0.55, 0.25)), clear);
+    }
+    // Leaves gather in hollows of the pattern.
+    let covered = saturate1(share + 0.8 * share * (1.0 - share) * (1.0 - contrast) * 2.0);
+    return mix(ground, color, covered);
 }
 
 // What objects of all layers leave to the ground: of the light of a sun with this tangent, and of the sky.

@@ -51,10 +51,9 @@ struct CrownsSeen {
     hit: f32,
     // Factors on the mean light of the sun and of the sky
     relief: vec2f,
+    // Random number of the crown, 0 to 1
+    random: f32,
 }
-
-// The period next to a wanted one that divides the wrapped position.
-fn wrapping_m(wanted_m: f32) -> f32 { return WRAP_FAR_M / round(WRAP_FAR_M / wanted_m); }
 
 // The dome over a place: height of its surface, 0 without one; place in the dome, in radii; a random number.
 fn dome_at(q: vec2f, field: CrownField) -> vec4f {
@@ -96,7 +95,7 @@ fn crowns_seen(
     let clear = smoothstep(CROWN_PIXELS.x, CROWN_PIXELS.y, across)
         * smoothstep(LEAST_WIDTH_M, 2.0 * LEAST_WIDTH_M, width_m)
         * smoothstep(0.2 * LEAST_MU, 0.6 * LEAST_MU, dot(n, v));
-    var out = CrownsSeen(clear, 0.0, vec2f(1.0));
+    var out = CrownsSeen(clear, 0.0, vec2f(1.0), 0.5);
     if clear <= 0.0 { return out; }
     // As many domes as objects, each as wide as one.
     let wanted_m = width_m * max(sqrt(0.25 * PI / max(covered, 1e-4)), LEAST_SPACING);
@@ -163,7 +162,8 @@ fn crowns_seen(
     let towards_sun = textureSampleLevel(noise_tile, repeated, hit + 0.05 * sun.yzx, max(lod, 0.0)).r;
     let twigs = max((1.0 + TWIGS.x * (2.0 * twig - 1.0)) * (1.0 - TWIGS.y * (towards_sun - twig)), 0.1);
     let open = smoothstep(height_m - 1.6 * depth_m, height_m, z);
-    let tint = twigs * (1.0 + 0.4 * (dome.w - 0.5));
+    let tint = twigs * (1.0 + 0.5 * (dome.w - 0.5));
+    out.random = fract(dome.w * 31.0);
     out.relief = tint * vec2f(lit * (1.0 - 0.75 * shadow) * mix(0.4, 1.12, open), mix(0.45, 1.2, open));
     return out;
 }

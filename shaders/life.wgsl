@@ -34,9 +34,6 @@ struct Surface {
     @location(10) @interpolate(flat) material: u32,
 }
 
-// Spread of the colour of leaves from one object to the next: some are yellower.
-const HUES: vec3f = vec3f(0.22, 0.07, -0.12);
-
 fn turned(q: vec4f, v: vec3f) -> vec3f {
     return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
 }
@@ -58,9 +55,9 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     out.position = body.clip_from_rel_m * vec4f(out.rel_m, 1.0);
     out.normal = turned(turn, in.normal.xyz);
     // The phase goes with the rank, by which objects thin out: hues do not.
-    let hue = fract(second.a * 157.7) - 0.5;
-    let hues = 1.0 + select(0.0, 2.0 * hue, instance.material >= LEAFY) * HUES;
-    out.albedo = mix(first.rgb * first.rgb, second.rgb * second.rgb * hues, in.look.x);
+    let leaf = second.rgb * second.rgb;
+    let hued = hue_of_one(leaf, fract(second.a * 157.7) + STAND_HUES * light.stand) * (1.0 + STANDS * light.stand);
+    out.albedo = mix(first.rgb * first.rgb, select(leaf, hued, kind_of(instance) >= LEAFY), in.look.x);
     out.look = in.look.xy;
     out.sun = vec4f(light.sun, light.visible);
     out.sky = light.sky;
@@ -70,7 +67,7 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     );
     out.level = in.look.w;
     out.size_m = instance.size_m;
-    out.material = instance.material;
+    out.material = kind_of(instance);
     // Coarse levels are smooth where fine ones have single leaves.
     out.place_m = vec4f((in.position + 6.0 * second.a) * instance.size_m, in.look.w * in.look.x);
     return out;
@@ -129,7 +126,7 @@ fn fragment(in: Surface) -> Output {
     // The ground around is in the sun as far as crowns leave it the sky, also where the object shades itself.
     let ground = in.sun.rgb * (max(dot(up, l), 0.0) * shade.sky) + sky;
     let from_below = ground * (GROUND_ALBEDO * (1.0 - open) * in.look.y);
-    let through_leaves = in.sun.rgb * THROUGH_LEAVES * (1.0 - shade.sky) * open;
+    let through_leaves = in.sun.rgb * body.through_leaves * (1.0 - shade.sky) * open;
     let radiance = albedo * (in.sun.rgb * (lit * shade.sun) + sky * open + through_leaves + from_below) / PI;
     let shown = select(radiance, in.albedo, frame.debug_view == VIEW_ALBEDO);
     let altitude_m = dot(in.rel_m, body.eye_up) + body.eye_altitude_km * 1000.0;

@@ -15,7 +15,7 @@ struct Instance {
     horizon: vec2u,
     // Area of neighbours that shade the object, for each area of ground
     neighbours: f32,
-    // Kind of material: src/render/life/material.rs
+    // Kind of material (src/render/life/material.rs); in the upper half the width of an object of the population, cm
     material: u32,
 }
 
@@ -25,5 +25,9 @@ struct ObjectLight {
     // Visible share of the sun's disc over the surrounding ground
     visible: f32,
     sky: vec3f,
-    padding: f32,
+    // Stand of the object: stands.wgsl
+    stand: f32,
 }
+
+fn kind_of(instance: Instance) -> u32 { return instance.material & 0xffffu; }
+

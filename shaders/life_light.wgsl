@@ -2,6 +2,7 @@
 #include "cloud_model.wgsl"
 #include "horizon.wgsl"
 #include "life_instance.wgsl"
+#include "stands.wgsl"
 
 struct Span {
     first: u32,
@@ -33,7 +34,9 @@ fn compute(@builtin(global_invocation_id) id: vec3u) {
     let slope_axis = slope_axis_of(instance.horizon.y >> 16u);
     let place = unpack2x16unorm(instance.horizon.x);
     let tile = vec4f(select(f32(layer), -1.0, layer == 0xffffu), 1.0, 0.0, 0.0);
-    var out = ObjectLight(vec3f(0.0), 1.0, vec3f(0.0), 0.0);
+    let width_m = max(f32(instance.material >> 16u) * 0.01, 0.05);
+    let stand = stands(width_m, body.eye_wrap_far_m + instance.foot_rel_m, distance_km * 1000.0 * frame.pixel_rad);
+    var out = ObjectLight(vec3f(0.0), 1.0, vec3f(0.0), stand);
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun_at(i, body.eye_km + rel_km);
         let sun_mu = dot(up, active_sun.dir);

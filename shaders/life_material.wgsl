@@ -4,8 +4,10 @@
 #include "shared.wgsl"
 
 // Period of furrows around a trunk and along it, metres; depth of a furrow as a share of it.
-const FURROW_M: vec2f = vec2f(0.13, 0.65);
+const FURROW_M: vec2f = vec2f(0.07, 0.42);
 const FURROW_DEPTH: f32 = 0.15;
+// Period of the stains of bark along a trunk, metres.
+const STAIN_M: f32 = 0.9;
 // Periods of the grain of rock, metres, and its height as a share of the period.
 const GRAIN_M: vec3f = vec3f(0.45, 0.13, 0.035);
 const GRAIN_HEIGHT: f32 = 0.10;
@@ -28,9 +30,23 @@ struct ObjectMaterial {
 
 const PLAIN: ObjectMaterial = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
 // Means of `furrows`, of cracks, and of the darkness at the edge of a leaf where it is not cut out: by sampling.
-const FURROWS_MEAN: f32 = 0.60;
+const FURROWS_MEAN: f32 = 0.73;
 const CRACKS_MEAN: f32 = 0.14;
 const EDGE_MEAN: f32 = 0.05;
+
+// Spread of the colour of leaves from one object to the next: some are yellower, some bluer.
+const HUES: vec3f = vec3f(0.34, 0.10, -0.16);
+
+// Strength of stands (stands.wgsl) in the colour: in its brightness, and in its hue as a share of that spread.
+const STANDS: f32 = 0.30;
+const STAND_HUES: f32 = 0.6;
+
+// Colour of one object of a mean colour, by a random number from 0 to 1. Grey ones have no hue.
+fn hue_of_one(mean: vec3f, random: f32) -> vec3f {
+    let most = max(mean.x, max(mean.y, mean.z));
+    let colorful = 1.0 - min(mean.x, min(mean.y, mean.z)) / max(most, 1e-6);
+    return mean * (1.0 + (2.0 * random - 1.0) * colorful * HUES);
+}
 
 fn lattice_value(cell: vec3i) -> f32 { return unit_from_hash(hash3(vec3u(cell))).x; }
 
@@ -50,17 +66,22 @@ fn lattice_noise(p: vec3f) -> f32 {
 fn clear_at(period_m: f32, pixel_m: f32) -> f32 { return 1.0 - smoothstep(0.15, 0.5, pixel_m / period_m); }
 
 // Furrows of one width: 0 in their depth, 1 on the plates between them.
-fn furrows(q: vec3f) -> f32 { return smoothstep(0.02, 0.40, abs(lattice_noise(q) - 0.5) * 2.0); }
+fn furrows(q: vec3f) -> f32 { return smoothstep(0.0, 0.28, abs(lattice_noise(q) - 0.5) * 2.0); }
 
 fn bark(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
     var out = PLAIN;
-    let bend = 0.08 * (lattice_noise(p_m * 3.1) - 0.5);
+    let bend = 0.05 * (lattice_noise(p_m * 5.3) - 0.5);
+    let stain = lattice_noise(p_m / vec3f(0.5, 0.5, 1.0) / STAIN_M) - 0.5;
+    out.tint = 1.0 + stain * vec3f(0.38, 0.30, 0.34);
     for (var i = 0; i < 2; i++) {
         let period_m = FURROW_M * select(1.0, 0.4, i == 1);
         let clear = clear_at(period_m.x, pixel_m);
         if clear <= 0.0 { break; }
-        let height = furrows((p_m + bend) / period_m.xxy + 31.0 * f32(i)) - FURROWS_MEAN;
-        out.tint *= 1.0 + clear * select(0.8, 0.6, i == 1) * height;
+        let at = (p_m + bend) / period_m.xxy + 31.0 * f32(i);
+        // Plates between furrows are rough.
+        let rough = lattice_noise(at * vec3f(2.3, 2.3, 3.1)) - 0.5;
+        let height = 0.6 * (furrows(at) - FURROWS_MEAN) + 0.7 * rough;
+        out.tint *= 1.0 + clear * select(0.55, 0.4, i == 1) * height;
         out.height_m += clear * FURROW_DEPTH * period_m.x * height;
     }
     return out;
@@ -81,7 +102,7 @@ fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     }
     // Lichen and weather stain the stone.
     let stain = lattice_noise(p_m / (0.35 * max(size_m, 0.6)) + 5.0) - 0.5;
-    out.tint = shade * (1.0 + stain * vec3f(0.30, 0.22, 0.05));
+    out.tint = shade * (1.0 + stain * vec3f(0.26, 0.23, 0.17));
     return out;
 }
 

@@ -14,8 +14,6 @@ const NO_SHADE: ObjectShade = ObjectShade(1.0, 1.0, vec2f(0.0));
 // Around a point, the metres within which objects hide its sky, and the share that crowns leave of it.
 const SKY_REACH_M: f32 = 5.0;
 const UNDER_CROWNS: f32 = 0.45;
-// Light that crowns let through, as a share of the sun's: green.
-const THROUGH_LEAVES: vec3f = vec3f(0.085, 0.120, 0.045);
 // The cascade that tells of the sky.
 const WIDE: i32 = 1;
 

@@ -4,7 +4,7 @@ use super::form::Cover;
 use super::grid::HECTARE_M2;
 use super::model::seed;
 use super::suitability::Suitability;
-use crate::planet::{Planet, Population};
+use crate::planet::{Form, Planet, Population};
 use crate::terrain::Sample;
 use rayon::prelude::*;
 
@@ -15,6 +15,23 @@ pub(crate) fn cover(population: &Population) -> Cover {
 
 /// Height in metres at which objects begin to count as casting shadows on the ground, and at which all of them do.
 const CASTING_M: [f64; 2] = [0.6, 2.0];
+
+/// Area of objects, for each area of ground, over which fallen leaves close: they fall beside the crowns, too.
+pub(crate) const LITTER_AREA: f64 = 0.6;
+/// Colour of what has fallen as shares of the colour of wood: what rots is darker, and browner.
+const LITTER_OF: [f64; 3] = [0.42, 0.37, 0.27];
+
+/// Share of sunlight that leaves let through, over their albedo: leaves are about as bright from behind.
+const LET_THROUGH: f64 = 0.72;
+
+/// Light that the leaves of a population let through to what stands below, as shares of the sun's; none of stones.
+fn through_leaves(population: &Population) -> [f64; 3] {
+    let has_leaves = match &population.form {
+        Form::Tree(tree) => tree.leaves > 0.0,
+        form => matches!(form, Form::Conifer(_) | Form::Palm(_) | Form::Tuft(_)),
+    };
+    population.leaf_color.map(|channel| if has_leaves { LET_THROUGH * channel } else { 0.0 })
+}
 
 /// What a population covers of the ground where everything suits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +46,11 @@ pub(crate) struct CanopyLayer {
     pub(crate) width_m: f64,
     /// Mean colour as seen from above (albedo, linear sRGB).
     pub(crate) color: [f64; 3],
+    /// Colour of what has fallen from the objects (albedo, linear sRGB), and the share of the ground that it covers
+    /// where they close.
+    pub(crate) litter: ([f64; 3], f64),
+    /// Light that its leaves let through to what stands below, as shares of the sun's.
+    pub(crate) through: [f64; 3],
     /// Share of the objects that cast shadows worth telling of: those high enough.
     pub(crate) casting: f64,
     /// Light of what is seen.
@@ -48,6 +70,8 @@ impl CanopyLayer {
             height_m: population.height_m * shown,
             width_m: (4.0 * cover.top * square_m2 / std::f64::consts::PI).sqrt(),
             color: std::array::from_fn(|c| mix(population.color[c], population.leaf_color[c])),
+            litter: (std::array::from_fn(|c| LITTER_OF[c] * population.color[c]), population.litter),
+            through: through_leaves(population),
             casting: ((population.height_m - CASTING_M[0]) / (CASTING_M[1] - CASTING_M[0])).clamp(0.0, 1.0),
             cover: *cover,
         }
@@ -56,6 +80,11 @@ impl CanopyLayer {
     /// Share of the ground that the objects cover as seen from above, at a share of their density.
     pub(crate) fn covered(&self, share: f64) -> f64 {
         1.0 - libm::exp(-self.top * share)
+    }
+
+    /// Share of the ground between the objects that fallen leaves cover, at a share of their density.
+    fn littered(&self, share: f64) -> f64 {
+        self.litter.1 * (1.0 - libm::exp(-self.top * share / LITTER_AREA))
     }
 }
 
@@ -116,9 +145,21 @@ impl Canopies {
     /// Mean colour (albedo, linear sRGB) of what is seen of a place from far above, with ground of a colour: higher
     /// objects hide lower ones.
     pub fn albedo(&self, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
-        self.covered(sample).fold(ground, |below, (cover, layer)| {
+        self.covered(sample).fold(self.littered(sample, ground), |below, (cover, layer)| {
             std::array::from_fn(|c| below[c] + (layer.color[c] - below[c]) * cover)
         })
+    }
+
+    /// Colour of the ground at a sample with what has fallen on it.
+    fn littered(&self, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
+        let (mut bare, mut sum, mut color) = (1.0, 0.0, [0.0; 3]);
+        for Layer { suitability, covers, .. } in self.layers.iter().filter(|layer| layer.covers.litter.1 > 0.0) {
+            let share = covers.littered(suitability.at(sample));
+            bare *= 1.0 - share;
+            sum += share;
+            color = std::array::from_fn(|c| color[c] + share * covers.litter.0[c]);
+        }
+        if sum <= 0.0 { ground } else { std::array::from_fn(|c| bare * ground[c] + (1.0 - bare) * color[c] / sum) }
     }
 
     /// What stands at a sample.

@@ -161,3 +161,29 @@ fn canopies_have_the_densities_of_objects_and_none_in_the_sea() {
     let wanted = density * std::f64::consts::PI * radius_m * radius_m / 10_000.0;
     assert!((counted / wanted - 1.0).abs() < 0.03, "{counted} objects, not {wanted}");
 }
+
+#[test]
+fn what_falls_from_trees_colours_the_ground_between_them() {
+    let colours = |litter: f64| {
+        let wood = Population { litter, color: [0.2, 0.15, 0.1], leaf_color: [0.2, 0.15, 0.1], ..trees() };
+        let terrain = terrain(vec![wood]);
+        let canopies = Canopies::new(terrain.planet());
+        let middle = LatLon::from_degrees(20.0, 30.0).direction();
+        let (east, _) = middle.any_orthonormal_pair();
+        let samples = (0..400).map(|i| terrain.sample((middle + east * (f64::from(i) * 1e-5)).normalize()));
+        let on_land: Vec<_> = samples.filter(|sample| canopies.at(sample).cover > 0.2).collect();
+        assert!(on_land.len() > 100, "{}", on_land.len());
+        let white = |sample| canopies.albedo(sample, [1.0; 3]);
+        on_land.iter().map(|sample| (canopies.at(sample).cover, white(sample))).collect::<Vec<_>>()
+    };
+    for ((cover, bare), (_, littered)) in colours(0.0).into_iter().zip(colours(0.8)) {
+        let floor = |seen: [f64; 3]| std::array::from_fn(|c| (seen[c] - cover * [0.2, 0.15, 0.1][c]) / (1.0 - cover));
+        let (bare, littered): ([f64; 3], [f64; 3]) = (floor(bare), floor(littered));
+        assert!(bare.iter().all(|channel| (channel - 1.0).abs() < 1e-9), "{bare:?}");
+        // Brown, never more than the share of it, and all the more the more the crowns close.
+        assert!(
+            littered[2] < littered[0] && littered[2] > 0.2 && littered[0] < 1.0 - 0.8 * 0.8 * cover,
+            "{littered:?}"
+        );
+    }
+}

@@ -69,7 +69,7 @@ const BIOME: &[Section] = &[
 
 const POPULATION: &[Section] = &[
     open("Form", &["form"]),
-    open("Size and colour", &["height_m", "height_spread", "color", "leaf_color", "color_spread"]),
+    open("Size and colour", &["height_m", "height_spread", "color", "leaf_color", "color_spread", "litter"]),
     open("Place", &["biomes", "slope_from_deg", "slope_to_deg", "shore_m", "in_water"]),
     folded(
         "Climate and height",

@@ -74,6 +74,9 @@ params! {
         leaf_color: [f64; 3] = [0.05, 0.09, 0.025], "Leaf colour", Unit::None, Domain::Color, Stage::Life;
         /// How much the brightness of single objects differs.
         color_spread: f64 = 0.25, "Colour spread", Unit::None, linear(0.0, 1.0), Stage::Life;
+        /// How far fallen leaves, needles and twigs cover the ground where the objects close above it: 0 is none, 1
+        /// all.
+        litter: f64 = 0.0, "Litter", Unit::None, linear(0.0, 1.0), Stage::Life;
         /// How far the wind sways the tips, as a share of the height in a gale.
         sway: f64 = 0.05, "Sway", Unit::None, linear(0.0, 0.5), Stage::Life;
         /// Whether bodies hit the objects: trunks and stones do, grass does not.
@@ -87,8 +90,8 @@ params! {
 impl Population {
     /// The parameters that decide where the objects stand, and how large they are; defaults for the rest.
     pub(crate) fn placed(&self) -> Self {
-        let Self { name, color, leaf_color, sway, solid, form, .. } = Self::default();
-        Self { name, color, leaf_color, sway, solid, form, ..self.clone() }
+        let Self { name, color, leaf_color, litter, sway, solid, form, .. } = Self::default();
+        Self { name, color, leaf_color, litter, sway, solid, form, ..self.clone() }
     }
 
     /// Ranges whose ends are out of order: the field, and what is wrong with it.

@@ -79,6 +79,10 @@ impl Population {
         Self { moisture_from, moisture_to, ..self }
     }
 
+    fn littered(self, litter: f64) -> Self {
+        Self { litter, ..self }
+    }
+
     fn slopes(self, slope_from_deg: f64, slope_to_deg: f64) -> Self {
         Self { slope_from_deg, slope_to_deg, ..self }
     }
@@ -90,12 +94,13 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
         name: "Broadleaf tree",
         make: || {
             of(
-                tree(Crown::Round, [0.95, 0.2, 0.06], [0.95, 0.052], 0.5),
-                14.0,
+                tree(Crown::Round, [0.66, 0.3, 0.032], [0.95, 0.042], 0.7),
+                18.0,
                 [[0.18, 0.145, 0.11], [0.104, 0.189, 0.047]],
-                250.0,
+                260.0,
                 [0.35, 90.0],
             )
+            .littered(0.85)
             .temperatures(3.0, 32.0)
             .moistures(0.35, 1.0)
         },
@@ -110,6 +115,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                 450.0,
                 [0.35, 120.0],
             )
+            .littered(0.8)
             .temperatures(-9.0, 12.0)
             .moistures(0.28, 1.0)
         },
@@ -118,12 +124,13 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
         name: "Pine",
         make: || {
             of(
-                tree(Crown::Round, [0.62, 0.42, 0.036], [0.8, 0.042], 1.0),
+                tree(Crown::Round, [0.62, 0.42, 0.026], [0.8, 0.042], 1.0),
                 17.0,
                 [[0.24, 0.15, 0.1], [0.075, 0.142, 0.056]],
                 220.0,
                 [0.4, 100.0],
             )
+            .littered(0.8)
             .temperatures(-4.0, 20.0)
             .moistures(0.25, 0.8)
         },
@@ -138,6 +145,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                 260.0,
                 [0.5, 60.0],
             )
+            .littered(0.7)
             .temperatures(-6.0, 14.0)
             .moistures(0.3, 1.0)
         },
@@ -152,6 +160,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                 120.0,
                 [0.6, 80.0],
             )
+            .littered(0.7)
             .temperatures(4.0, 26.0)
             .moistures(0.3, 0.9)
         },
@@ -160,6 +169,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
         name: "Palm",
         make: || {
             of(Form::Palm(Palm::default()), 11.0, [[0.26, 0.22, 0.17], [0.113, 0.217, 0.049]], 120.0, [0.5, 60.0])
+                .littered(0.3)
                 .temperatures(20.0, 60.0)
                 .moistures(0.25, 1.0)
         },
@@ -174,6 +184,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                 14.0,
                 [0.5, 200.0],
             )
+            .littered(0.3)
             .temperatures(16.0, 45.0)
             .moistures(0.12, 0.5)
         },
@@ -202,6 +213,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                 140.0,
                 [0.6, 30.0],
             )
+            .littered(0.4)
             .temperatures(-6.0, 40.0)
             .moistures(0.2, 1.0)
         },

@@ -6,11 +6,12 @@ use crate::life::Scenery;
 use crate::life::canopy::CanopyLayer;
 use crate::planet::Population;
 use crate::render::scene::Body;
+use glam::{DVec3, Vec3};
 
 /// Most populations that count for the canopy of a biome: those that cover most.
 pub(crate) const LAYERS: usize = 4;
 /// Rows of a population, four numbers each.
-pub(crate) const LAYER_ROWS: usize = 7;
+pub(crate) const LAYER_ROWS: usize = 9;
 /// Rows of a biome.
 pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
 /// The canopy of a population.
@@ -34,6 +35,7 @@ impl CanopyRows {
         let layers = layers.filter_map(|((population, layer), reach_m)| Some((population, layer?, *reach_m)));
         let layers = layers.map(|(population, layer, reach_m)| {
             let ([r, g, b], cover) = (layer.color, &layer.cover);
+            let (fallen, littered) = layer.litter;
             let shore_m = if population.in_water { -1e6 } else { population.shore_m };
             let texels = [
                 [r, g, b, layer.top],
@@ -48,6 +50,8 @@ impl CanopyRows {
                 [layer.width_m, population.clumping, shore_m, layer.casting],
                 [cover.sun[0][0], cover.sun[0][1], shading(&layer), layer.height_m],
                 [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
+                [fallen[0], fallen[1], fallen[2], littered],
+                [layer.through[0], layer.through[1], layer.through[2], 0.0],
             ];
             Layer {
                 biomes: population.biomes.clone(),
@@ -92,8 +96,33 @@ fn shading(layer: &CanopyLayer) -> f64 {
     layer.casting * layer.side * (-0.5 * layer.top).exp()
 }
 
-/// For each population, the area of neighbours that shade one of its objects.
-pub(super) fn neighbours(scenery: &Scenery, populations: &[Population]) -> Vec<f32> {
-    let area = |(_, layer): (&Population, Option<CanopyLayer>)| layer.map_or(0.0, |layer| shading(&layer) as f32);
-    layers(scenery, populations).map(area).collect()
+/// Light that crowns around the eye let through to objects below, as shares of the sun's: the mean of those that are
+/// there.
+pub(super) fn through_leaves(scenery: &Scenery, populations: &[Population]) -> Vec3 {
+    let mut is_there = vec![false; populations.len()];
+    for cell in &scenery.cells {
+        if let Some(is_there) = is_there.get_mut(usize::from(cell.population)) {
+            *is_there = true;
+        }
+    }
+    let there = layers(scenery, populations).zip(is_there).filter(|(_, is_there)| *is_there);
+    let casting = there.filter_map(|((_, layer), _)| layer).map(|layer| (layer.top * layer.casting, layer.through));
+    let (area, sum) = casting
+        .fold((0.0, DVec3::ZERO), |(area, sum), (own, through)| (area + own, sum + own * DVec3::from_array(through)));
+    if area > 0.0 { (sum / area).as_vec3() } else { Vec3::ZERO }
+}
+
+/// What an object of a population stands among.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Among {
+    /// Area of neighbours that shade it, for each area of ground.
+    pub(super) neighbours: f32,
+    /// Mean width of an object, metres.
+    pub(super) width_m: f64,
+}
+
+/// For each population, what its objects stand among.
+pub(super) fn among(scenery: &Scenery, populations: &[Population]) -> Vec<Among> {
+    let of_layer = |layer: CanopyLayer| Among { neighbours: shading(&layer) as f32, width_m: layer.width_m };
+    layers(scenery, populations).map(|(_, layer)| layer.map_or_else(Among::default, of_layer)).collect()
 }

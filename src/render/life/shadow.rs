@@ -3,12 +3,14 @@
 //! The map turns with the sun and stands still on the planet: its centre moves by whole texels, so that edges do not
 //! crawl while the camera moves. The ground's own shadows come from its horizon angles.
 
+use super::canopy::through_leaves;
+use super::view::populations;
 use crate::life::scenery::{Scenery, SceneryCell};
 use crate::lod::Quality;
 use crate::render::scene::{Body, DebugView, Scene};
 use crate::render::shared;
 use crate::render::targets::DEPTH_FORMAT;
-use glam::{DVec3, Mat4, Vec2, Vec4};
+use glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
 
 /// Cascades of a map, nearest first.
 pub(crate) const CASCADES: usize = 2;
@@ -38,6 +40,7 @@ pub(crate) struct Cascades {
     /// Middle of the maps, metres from the eye.
     pub(super) center_rel_m: DVec3,
     pub(super) radii_m: [f64; CASCADES],
+    through_leaves: Vec3,
     pub(crate) side_px: u32,
 }
 
@@ -72,7 +75,8 @@ impl Cascades {
             let rows = [row(across, snapped(across), radius_m), row(along, snapped(along), radius_m), depth, Vec4::W];
             Mat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
         });
-        Some(Self { clip_from_rel_m: maps, center_rel_m: foot_m - eye_m, radii_m, side_px })
+        let through_leaves = through_leaves(&body.surface.scenery, populations(body));
+        Some(Self { clip_from_rel_m: maps, center_rel_m: foot_m - eye_m, radii_m, through_leaves, side_px })
     }
 
     /// Tells the shaders.
@@ -80,6 +84,7 @@ impl Cascades {
         out.shadow_from_rel_m = self.clip_from_rel_m;
         out.shadow_texel_m =
             Vec2::from_array(self.radii_m.map(|radius_m| (2.0 * radius_m) as f32 / self.side_px as f32));
+        out.through_leaves = self.through_leaves;
         out.has_shadows = 1;
     }
 

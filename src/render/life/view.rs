@@ -1,8 +1,10 @@
 //! The objects that a view draws: culled, thinned out by distance, each at the level of detail that its size in the
 //! picture needs.
 
+use super::canopy::Among;
 use super::material::Material;
 use super::{CASCADES, Cascades, LifeModels, canopy};
+use crate::life::Model;
 use crate::life::form::LEVELS;
 use crate::life::scenery::{SceneryCell, SceneryObject, share_at};
 use crate::lod::horizon::HorizonTile;
@@ -30,7 +32,8 @@ pub(super) struct Instance {
     layer: u16,
     axis: u16,
     neighbours: f32,
-    material: u32,
+    material: u16,
+    width_cm: u16,
 }
 
 /// Instances of one mesh.
@@ -66,13 +69,20 @@ const GROWTH: f64 = 0.12;
 /// Layer of an object without a horizon tile.
 const NO_LAYER: u16 = u16::MAX;
 
-/// Heights in pixels from which levels 0, 1 and 2 are drawn.
-fn level_px(quality: Quality) -> [f64; LEVELS - 1] {
-    match quality {
-        Quality::Low => [360.0, 110.0, 24.0],
-        Quality::Medium => [220.0, 55.0, 13.0],
-        Quality::High => [160.0, 42.0, 11.0],
-    }
+/// Heights in pixels from which levels 0, 1 and 2 of a model are drawn: light meshes are drawn farther away.
+fn level_px(quality: Quality, model: Option<&Model>) -> [f64; LEVELS - 1] {
+    // The last number is the least height for each square root of the triangles.
+    let ([first, second, third], by_triangles) = match quality {
+        Quality::Low => ([360.0, 110.0, 24.0], 4.5),
+        Quality::Medium => ([220.0, 55.0, 13.0], 2.4),
+        Quality::High => ([160.0, 42.0, 11.0], 1.6),
+    };
+    let meshes = model.and_then(|model| model.variants.first());
+    let least = |level: usize, most_px: f64| {
+        let triangles = meshes.map_or(f64::INFINITY, |meshes| meshes[level].triangles.len() as f64);
+        most_px.min(by_triangles * triangles.sqrt())
+    };
+    [least(0, first), least(1, second), least(2, third)]
 }
 
 /// The place of objects on a horizon tile.
@@ -103,25 +113,27 @@ impl LifeView {
         let lowest_m = body.surface.terrain.planet().radius_m() + height_range_m(body.surface).0;
         let culling = Culling::new(chosen, lowest_m.max(0.0));
         let (horizons, populations) = (Horizons::new(body), populations(body));
-        let neighbours = canopy::neighbours(scenery, populations);
+        let among = canopy::among(scenery, populations);
         let drawn = Drawn::new(view, cascades);
+        let levels_px: Vec<_> = scenery.models.iter().map(|model| level_px(view.quality, model.as_deref())).collect();
         let mut seen = Bins::new(scenery.models.len());
         let mut casting: [Bins; CASCADES] = std::array::from_fn(|_| Bins::new(scenery.models.len()));
         for cell in &scenery.cells {
             let is_seen = culling.sees_sphere(cell.center_planet_m, cell.bounding_radius_m);
             let casts = cascades.is_some_and(|cascades| cascades.reaches(cell, drawn.eye_m));
             let index = usize::from(cell.population);
-            let (Some(population), true) = (populations.get(index), is_seen || casts) else { continue };
+            let known = populations.get(index).zip(levels_px.get(index));
+            let (Some((population, level_px)), true) = (known, is_seen || casts) else { continue };
             let shade = horizons.of(cell).filter(|_| is_seen).and_then(|tile| {
                 let at = tiles.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile))?;
                 Some(Shade { at, within: within(cell.id, tile.id) })
             });
             let array = shade.as_ref().map_or(0, |shade| shade.at.array);
-            let neighbours = neighbours.get(index).copied().unwrap_or(0.0);
-            let look = Look { population, shade, axis: axis_code(cell.id), neighbours };
+            let among = among.get(index).copied().unwrap_or_default();
+            let look = Look { population, shade, axis: axis_code(cell.id), among };
             let reach_m = scenery.reach_m.get(index).copied().unwrap_or(0.0);
             for (object, shown) in
-                cell.objects.iter().filter_map(|object| Some((object, drawn.shown(object, reach_m)?)))
+                cell.objects.iter().filter_map(|object| Some((object, drawn.shown(object, reach_m, level_px)?)))
             {
                 let instance = look.instance(object, &shown);
                 let variant = usize::from(object.variant);
@@ -174,7 +186,6 @@ pub(super) fn populations<'a>(body: &'a Body<'_>) -> &'a [Population] {
 struct Drawn<'a> {
     eye_m: DVec3,
     pixel_rad: f64,
-    level_px: [f64; LEVELS - 1],
     cascades: Option<&'a Cascades>,
 }
 
@@ -188,11 +199,11 @@ struct Shown {
 impl<'a> Drawn<'a> {
     fn new(view: &View, cascades: Option<&'a Cascades>) -> Self {
         let (eye_m, pixel_rad) = (view.camera.position_planet_m, view.pixel_rad());
-        Self { eye_m, pixel_rad, level_px: level_px(view.quality), cascades }
+        Self { eye_m, pixel_rad, cascades }
     }
 
-    /// How an object is shown; None where it has thinned out.
-    fn shown(&self, object: &SceneryObject, reach_m: f64) -> Option<Shown> {
+    /// How an object is shown; None where it has thinned out. `level_px`: those of its model.
+    fn shown(&self, object: &SceneryObject, reach_m: f64, level_px: &[f64; LEVELS - 1]) -> Option<Shown> {
         let rel_m = object.foot_planet_m - self.eye_m;
         let away_m = rel_m.length();
         // The last objects of a distance grow from nothing.
@@ -200,7 +211,7 @@ impl<'a> Drawn<'a> {
         let grown = ((share - f64::from(object.rank)) / GROWTH).clamp(0.0, 1.0);
         let size_m = f64::from(object.size_m) * grown;
         let pixels = size_m / (away_m.max(0.1) * self.pixel_rad);
-        let level = self.level_px.iter().position(|least| pixels > *least).unwrap_or(LEVELS - 1);
+        let level = level_px.iter().position(|least| pixels > *least).unwrap_or(LEVELS - 1);
         (grown > 0.0).then_some(Shown { rel_m, size_m, level })
     }
 
@@ -255,8 +266,7 @@ struct Look<'a> {
     population: &'a Population,
     shade: Option<Shade>,
     axis: u16,
-    /// Area of neighbours that shade an object; see [`canopy::neighbours`].
-    neighbours: f32,
+    among: Among,
 }
 
 impl Look<'_> {
@@ -287,8 +297,9 @@ impl Look<'_> {
             place,
             layer: self.shade.as_ref().map_or(NO_LAYER, |shade| shade.at.layer as u16),
             axis: self.axis,
-            neighbours: self.neighbours,
-            material: Material::of(&population.form) as u32,
+            neighbours: self.among.neighbours,
+            material: Material::of(&population.form) as u16,
+            width_cm: (self.among.width_m * 100.0).min(65535.0) as u16,
         }
     }
 }

@@ -377,10 +377,12 @@ uniform_struct! {
         has_rivers: u32,
         /// Metres from the eye to clip space of each cascade of the shadows of objects.
         shadow_from_rel_m: [Mat4; CASCADES],
-        /// Width of a texel of each cascade.
-        shadow_texel_m: Vec2,
+        /// Light that crowns let through to objects below, as shares of the sun's.
+        through_leaves: Vec3,
         /// 1 where objects cast shadows.
         has_shadows: u32,
+        /// Width of a texel of each cascade.
+        shadow_texel_m: Vec2,
     }
 }
 
