@@ -89,7 +89,7 @@ fn region(terrain: &Terrain, middle: DVec3, side_m: f64) -> Result<Vec<Instance>
         let stretch = if aside > 0.0 { libm::atan2(aside, local.z) / aside } else { 1.0 };
         local.x.abs() * stretch <= half_rad && local.y.abs() * stretch <= half_rad
     };
-    terrain.instances_where(middle, 0.5 * side_m * std::f64::consts::SQRT_2, &is_within)
+    terrain.instances_where(middle, 0.5 * side_m * std::f64::consts::SQRT_2, &[], &is_within)
 }
 
 /// Name of the population, and height as a share of the population's.

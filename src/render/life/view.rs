@@ -105,6 +105,7 @@ impl LifeView {
         let (horizons, populations) = (Horizons::new(body), populations(body));
         let neighbours = canopy::neighbours(scenery, populations);
         let drawn = Drawn::new(view, cascades);
+        let made = &body.surface.terrain.planet().life;
         let mut seen = Bins::new(scenery.models.len());
         let mut casting: [Bins; CASCADES] = std::array::from_fn(|_| Bins::new(scenery.models.len()));
         for cell in &scenery.cells {
@@ -118,11 +119,12 @@ impl LifeView {
             });
             let array = shade.as_ref().map_or(0, |shade| shade.at.array);
             let neighbours = neighbours.get(index).copied().unwrap_or(0.0);
+            let seed = made.get(index).map_or(population.seed, |made| made.seed);
+            let hidden = body.hidden.map(|hidden| hidden.of_seed(seed)).unwrap_or_default();
             let look = Look { population, shade, axis: axis_code(cell.id), neighbours };
             let reach_m = scenery.reach_m.get(index).copied().unwrap_or(0.0);
-            for (object, shown) in
-                cell.objects.iter().filter_map(|object| Some((object, drawn.shown(object, reach_m)?)))
-            {
+            for object in &cell.objects {
+                let Some(shown) = drawn.shown(object, reach_m).filter(|_| !hidden.holds(object.id)) else { continue };
                 let instance = look.instance(object, &shown);
                 let variant = usize::from(object.variant);
                 if is_seen {
