@@ -20,6 +20,12 @@
 #define TELLUS_MAX_CHUNK_CELLS 1024
 
 /**
+ * Solid objects near those who move: trunks, stones and others of populations that are solid. It keeps what was asked
+ * for, so one thread uses it at a time. It may outlive its planet.
+ */
+typedef struct TellusObjects TellusObjects;
+
+/**
  * A planet, ready for queries. Any number of threads may ask at once.
  */
 typedef struct TellusPlanet TellusPlanet;
@@ -101,6 +107,79 @@ typedef struct TellusContact {
    */
   double normal[3];
 } TellusContact;
+
+/**
+ * An object that stands on the ground: a plant, a stone, the same wherever and whenever it is asked for.
+ */
+typedef struct TellusInstance {
+  /**
+   * Its id in the population.
+   */
+  uint64_t id;
+  /**
+   * Seed of its population. With the id it names the object, whatever becomes of other populations.
+   */
+  uint32_t seed;
+  /**
+   * Index of its population; see `tellus_population_name`.
+   */
+  uint32_t population;
+  /**
+   * Unit direction of its place in the planet frame.
+   */
+  double direction[3];
+  /**
+   * Height of the ground there above the reference sphere.
+   */
+  double ground_m;
+  /**
+   * Height of its foot above the reference sphere: it may be sunk into the ground.
+   */
+  double base_m;
+  /**
+   * Unit vector from its foot to its top in the planet frame.
+   */
+  double axis[3];
+  /**
+   * Turn about the axis, against the clock as seen from the top.
+   */
+  double turn_rad;
+  /**
+   * Height along its axis.
+   */
+  double size_m;
+  /**
+   * Factor on the colours of its population.
+   */
+  double brightness;
+  /**
+   * Variant of the form, 0 to 3.
+   */
+  uint32_t variant;
+  /**
+   * Always 0.
+   */
+  uint32_t reserved;
+} TellusInstance;
+
+/**
+ * The name of an object among all of a planet. A save may hold its bytes: they are the same on every machine of one
+ * byte order.
+ */
+typedef struct TellusObject {
+  /**
+   * Its id in the population.
+   */
+  uint64_t id;
+  /**
+   * Seed of its population.
+   */
+  uint32_t seed;
+  /**
+   * Write 0.
+   */
+  uint32_t reserved;
+} TellusObject;
 
 #ifdef __cplusplus
 extern "C" {
@@ -359,6 +438,145 @@ int32_t tellus_sweep(const struct TellusPlanet *planet,
                      const double *motion_m,
                      double skin_m,
                      struct TellusContact *contact);
+
+/**
+ * Number of populations.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library.
+ */
+uint32_t tellus_population_count(const struct TellusPlanet *planet);
+
+/**
+ * The name of a population. Valid as long as the planet; NULL if there is no such population.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library.
+ */
+const char *tellus_population_name(const struct TellusPlanet *planet, uint32_t population);
+
+/**
+ * The objects within `radius_m` of a direction of 3 numbers, along the reference sphere, on all cores. The answer is
+ * their number, -1 if that failed. The first `capacity` of them are written, in ascending order of their ids: if there
+ * are more, ask with a larger buffer. `instances` may be NULL where `capacity` is 0.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `direction` is NULL or holds 3 numbers, and `instances` is NULL or
+ * holds `capacity`.
+ */
+int64_t tellus_instances(const struct TellusPlanet *planet,
+                         const double *direction,
+                         double radius_m,
+                         struct TellusInstance *instances,
+                         size_t capacity);
+
+/**
+ * The nearest object to a direction of 3 numbers within a distance along the reference sphere, of one population or,
+ * where `population` is negative, of any. 1 and `instance` written, 0 if there is none, -1 if that failed.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `direction` is NULL or holds 3 numbers, and `instance` is NULL or
+ * holds one.
+ */
+int32_t tellus_nearest_object(const struct TellusPlanet *planet,
+                              const double *direction,
+                              double within_m,
+                              int32_t population,
+                              struct TellusInstance *instance);
+
+/**
+ * The solid objects of a planet. The forms of its populations are measured first, which takes some milliseconds for
+ * each. NULL if that failed.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library.
+ */
+struct TellusObjects *tellus_objects(const struct TellusPlanet *planet);
+
+/**
+ * Frees solid objects. NULL is ignored.
+ *
+ * # Safety
+ * `objects` is NULL or came from this library, is not freed twice, and no thread uses it any more.
+ */
+void tellus_objects_free(struct TellusObjects *objects);
+
+/**
+ * Where a capsule (as that of `tellus_sweep`) is nearest to an object. 1 and `contact` written, with a share of 0, if
+ * one is within `within_m`, 0 if none is, -1 if that failed. `object` may be NULL.
+ *
+ * # Safety
+ * `objects` is NULL or came from `tellus_objects`, and no other thread uses it; `ends_m` is NULL or holds 6 numbers,
+ * `contact` and `object` are NULL or hold one.
+ */
+int32_t tellus_objects_contact(struct TellusObjects *objects,
+                               const double *ends_m,
+                               double radius_m,
+                               double within_m,
+                               struct TellusContact *contact,
+                               struct TellusObject *object);
+
+/**
+ * As `tellus_sweep`, among objects alone: the ground does not stop the motion. `object` may be NULL.
+ *
+ * # Safety
+ * As for `tellus_objects_contact`; `motion_m` is NULL or holds 3 numbers.
+ */
+int32_t tellus_objects_sweep(struct TellusObjects *objects,
+                             const double *ends_m,
+                             double radius_m,
+                             const double *motion_m,
+                             double skin_m,
+                             struct TellusContact *contact,
+                             struct TellusObject *object);
+
+/**
+ * Distance in metres along a ray (planet frame, metres from the centre) to the first object, up to `to_m`: infinite if
+ * it meets none, NaN if that failed. Neither the ground nor the sea stops it; see `tellus_raycast`. `normal` has 3
+ * numbers; it and `object` may be NULL, and are written where an object is met.
+ *
+ * # Safety
+ * `objects` is NULL or came from `tellus_objects`, and no other thread uses it; `origin_m`, `direction` and `normal`
+ * are NULL or hold 3 numbers, `object` is NULL or holds one.
+ */
+double tellus_objects_raycast(struct TellusObjects *objects,
+                              const double *origin_m,
+                              const double *direction,
+                              double to_m,
+                              double *normal,
+                              struct TellusObject *object);
+
+/**
+ * Hides `count` objects, those that a game has felled or taken: nothing hits them. The answer is how many were there
+ * before, -1 if that failed. Objects of populations that the planet does not have may be among them.
+ *
+ * # Safety
+ * `objects` is NULL or came from `tellus_objects`, and no other thread uses it; `hidden` is NULL or holds `count`.
+ */
+int64_t tellus_objects_hide(struct TellusObjects *objects,
+                            const struct TellusObject *hidden,
+                            size_t count);
+
+/**
+ * Shows `count` objects again. The answer is how many were hidden, -1 if that failed.
+ *
+ * # Safety
+ * As for `tellus_objects_hide`.
+ */
+int64_t tellus_objects_show(struct TellusObjects *objects,
+                            const struct TellusObject *shown,
+                            size_t count);
+
+/**
+ * The hidden objects, for a save. The answer is their number, -1 if that failed. The first `capacity` of them are
+ * written, in ascending order of seeds and ids. `hidden` may be NULL where `capacity` is 0.
+ *
+ * # Safety
+ * As for `tellus_objects_hide`; `hidden` is NULL or holds `capacity`.
+ */
+int64_t tellus_objects_hidden(const struct TellusObjects *objects,
+                              struct TellusObject *hidden,
+                              size_t capacity);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -50,6 +50,42 @@ namespace Tellus
         public double NormalX, NormalY, NormalZ;
     }
 
+    /// An object that stands on the ground. The layout is that of TellusInstance in tellus.h.
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Instance
+    {
+        public ulong Id;
+        /// Seed of its population: with the id it names the object.
+        public uint Seed;
+        /// Index of its population; see Planet.PopulationName.
+        public uint Population;
+        /// Unit direction of its place.
+        public double DirectionX, DirectionY, DirectionZ;
+        /// Heights of the ground and of its foot above the reference sphere.
+        public double GroundM, BaseM;
+        /// Unit vector from its foot to its top.
+        public double AxisX, AxisY, AxisZ;
+        /// Turn about the axis, against the clock as seen from the top.
+        public double TurnRad;
+        /// Height along its axis.
+        public double SizeM;
+        /// Factor on the colours of its population.
+        public double Brightness;
+        public uint Variant;
+        public uint Reserved;
+
+        public ObjectName Name => new ObjectName { Id = Id, Seed = Seed };
+    }
+
+    /// The name of an object among all of a planet, for saves. The layout is that of TellusObject in tellus.h.
+    [StructLayout(LayoutKind.Sequential)]
+    public struct ObjectName
+    {
+        public ulong Id;
+        public uint Seed;
+        public uint Reserved;
+    }
+
     /// A call failed; the message says why.
     public sealed class TellusException : Exception
     {
@@ -193,6 +229,46 @@ namespace Tellus
             return touches == 1 ? contact[0] : (Contact?)null;
         }
 
+        public uint PopulationCount => Native.tellus_population_count(this);
+
+        public string PopulationName(uint population)
+        {
+            IntPtr name = Native.tellus_population_name(this, population);
+            Check(name != IntPtr.Zero);
+            return Text(name);
+        }
+
+        /// The objects within a radius of a direction, in ascending order of their ids.
+        public Instance[] Instances(double[] direction, double radiusM)
+        {
+            if (direction.Length != 3)
+                throw new ArgumentException("a direction has three numbers");
+            long count = Native.tellus_instances(this, direction, radiusM, null, UIntPtr.Zero);
+            Check(count >= 0);
+            var instances = new Instance[count];
+            Check(Native.tellus_instances(this, direction, radiusM, instances, (UIntPtr)instances.Length) >= 0);
+            return instances;
+        }
+
+        /// The nearest object of a population, or of any (-1); null if there is none within the distance.
+        public Instance? NearestObject(double[] direction, double withinM, int population = -1)
+        {
+            if (direction.Length != 3)
+                throw new ArgumentException("a direction has three numbers");
+            var instance = new Instance[1];
+            int there = Native.tellus_nearest_object(this, direction, withinM, population, instance);
+            Check(there >= 0);
+            return there == 1 ? instance[0] : (Instance?)null;
+        }
+
+        /// The solid objects, for one thread at a time.
+        public Objects SolidObjects()
+        {
+            Objects objects = Native.tellus_objects(this);
+            Check(!objects.IsInvalid);
+            return objects;
+        }
+
         private static int Count(double[] directions)
         {
             if (directions.Length % 3 != 0)
@@ -206,7 +282,7 @@ namespace Tellus
             return planet;
         }
 
-        private static void Check(bool done)
+        internal static void Check(bool done)
         {
             if (!done)
                 throw new TellusException(Text(Native.tellus_last_error()));
@@ -228,6 +304,85 @@ namespace Tellus
         private static byte[] Utf8(string text)
         {
             return text == null ? null : Encoding.UTF8.GetBytes(text + "\0");
+        }
+    }
+
+    /// Solid objects: trunks, stones and others. One thread uses them at a time; they may outlive their planet.
+    public sealed class Objects : SafeHandle
+    {
+        // The runtime creates the handle that a function returns.
+        private Objects() : base(IntPtr.Zero, true) { }
+
+        public override bool IsInvalid => handle == IntPtr.Zero;
+
+        protected override bool ReleaseHandle()
+        {
+            Native.tellus_objects_free(handle);
+            return true;
+        }
+
+        /// Where a capsule between two ends (six numbers) is nearest to an object; null if none is within the distance.
+        public Contact? ContactWith(double[] endsM, double radiusM, double withinM, out ObjectName met)
+        {
+            if (endsM.Length != 6)
+                throw new ArgumentException("ends have six numbers");
+            Contact[] contact = new Contact[1];
+            ObjectName[] name = new ObjectName[1];
+            int touches = Native.tellus_objects_contact(this, endsM, radiusM, withinM, contact, name);
+            Planet.Check(touches >= 0);
+            met = name[0];
+            return touches == 1 ? contact[0] : (Contact?)null;
+        }
+
+        /// Where a capsule is skinM from an object as it moves; null if it never is.
+        public Contact? Sweep(double[] endsM, double radiusM, double[] motionM, double skinM, out ObjectName met)
+        {
+            if (endsM.Length != 6 || motionM.Length != 3)
+                throw new ArgumentException("ends have six numbers, a motion three");
+            Contact[] contact = new Contact[1];
+            ObjectName[] name = new ObjectName[1];
+            int touches = Native.tellus_objects_sweep(this, endsM, radiusM, motionM, skinM, contact, name);
+            Planet.Check(touches >= 0);
+            met = name[0];
+            return touches == 1 ? contact[0] : (Contact?)null;
+        }
+
+        /// Distance along a ray to the first object, up to toM; infinite if it meets none.
+        public double Raycast(double[] originM, double[] direction, double toM, double[] normal, out ObjectName met)
+        {
+            if (originM.Length != 3 || direction.Length != 3 || (normal != null && normal.Length != 3))
+                throw new ArgumentException("an origin, a direction and a normal have three numbers each");
+            ObjectName[] name = new ObjectName[1];
+            double distanceM = Native.tellus_objects_raycast(this, originM, direction, toM, normal, name);
+            Planet.Check(!double.IsNaN(distanceM));
+            met = name[0];
+            return distanceM;
+        }
+
+        /// Hides objects: nothing hits them any more. How many were there before.
+        public long Hide(params ObjectName[] names)
+        {
+            long changed = Native.tellus_objects_hide(this, names, (UIntPtr)names.Length);
+            Planet.Check(changed >= 0);
+            return changed;
+        }
+
+        /// Shows objects again. How many were hidden.
+        public long Show(params ObjectName[] names)
+        {
+            long changed = Native.tellus_objects_show(this, names, (UIntPtr)names.Length);
+            Planet.Check(changed >= 0);
+            return changed;
+        }
+
+        /// The hidden objects, for a save.
+        public ObjectName[] Hidden()
+        {
+            long count = Native.tellus_objects_hidden(this, null, UIntPtr.Zero);
+            Planet.Check(count >= 0);
+            var names = new ObjectName[count];
+            Planet.Check(Native.tellus_objects_hidden(this, names, (UIntPtr)names.Length) >= 0);
+            return names;
         }
     }
 
@@ -289,6 +444,40 @@ namespace Tellus
         [return: MarshalAs(UnmanagedType.I1)]
         internal static extern bool tellus_chunk(Planet planet, double[] direction, double sideM, uint cells,
             int column, int row, [Out] float[] positionsM, [Out] float[] normals);
+
+        [DllImport(Library)] internal static extern uint tellus_population_count(Planet planet);
+        [DllImport(Library)] internal static extern IntPtr tellus_population_name(Planet planet, uint population);
+
+        [DllImport(Library)]
+        internal static extern long tellus_instances(
+            Planet planet, double[] direction, double radiusM, [Out] Instance[] instances, UIntPtr capacity);
+
+        [DllImport(Library)]
+        internal static extern int tellus_nearest_object(
+            Planet planet, double[] direction, double withinM, int population, [Out] Instance[] instance);
+
+        [DllImport(Library)] internal static extern Objects tellus_objects(Planet planet);
+        [DllImport(Library)] internal static extern void tellus_objects_free(IntPtr objects);
+
+        [DllImport(Library)]
+        internal static extern int tellus_objects_contact(Objects objects, double[] endsM, double radiusM,
+            double withinM, [Out] Contact[] contact, [Out] ObjectName[] met);
+
+        [DllImport(Library)]
+        internal static extern int tellus_objects_sweep(Objects objects, double[] endsM, double radiusM,
+            double[] motionM, double skinM, [Out] Contact[] contact, [Out] ObjectName[] met);
+
+        [DllImport(Library)]
+        internal static extern double tellus_objects_raycast(Objects objects, double[] originM, double[] direction,
+            double toM, [Out] double[] normal, [Out] ObjectName[] met);
+
+        [DllImport(Library)]
+        internal static extern long tellus_objects_hide(Objects objects, ObjectName[] names, UIntPtr count);
+        [DllImport(Library)]
+        internal static extern long tellus_objects_show(Objects objects, ObjectName[] names, UIntPtr count);
+        [DllImport(Library)]
+        internal static extern long tellus_objects_hidden(
+            Objects objects, [Out] ObjectName[] names, UIntPtr capacity);
 
         [DllImport(Library)]
         internal static extern int tellus_sweep(

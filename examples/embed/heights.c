@@ -1,5 +1,5 @@
-/* Prints the ground under some places, the extent of a tile, and clouds, water and a falling ball at a time. Build the
-   library first (docs/embedding.md), then:
+/* Prints the ground under some places, the extent of a tile, clouds, water and a falling ball at a time, and objects.
+   Build the library first (docs/embedding.md), then:
    cc -Iinclude examples/embed/heights.c -Ltarget/debug -ltellus -lm -o heights */
 
 #include "tellus.h"
@@ -70,6 +70,35 @@ int main(int argc, char **argv) {
     float chunk_m[9 * 9][3], normals[9 * 9][3];
     if (!tellus_chunk(planet, directions[0], 100.0, 8, -1, 2, chunk_m[0], normals[0])) fail();
     printf("chunk %.3f %.3f %.3f\n", chunk_m[80][0], chunk_m[80][1], chunk_m[80][2]);
+
+    /* Plants and stones around the places. The nearest of each is hit from above, and hidden. */
+    struct TellusObjects *objects = tellus_objects(planet);
+    if (!objects) fail();
+    struct TellusInstance nearest, *around = malloc(sizeof *around * 50000);
+    if (!around) return 1;
+    for (int i = 0; i < COUNT; i++) {
+        int64_t count = tellus_instances(planet, directions[i], 30.0, around, 50000);
+        int there = tellus_nearest_object(planet, directions[i], 200.0, -1, &nearest);
+        if (count < 0 || there < 0) fail();
+        printf("objects %lld\n", (long long)count);
+        if (there == 0) continue;
+        printf("nearest %s %llu %.3f\n", tellus_population_name(planet, nearest.population),
+               (unsigned long long)nearest.id, nearest.size_m);
+        double above_m[3], down[3];
+        for (int k = 0; k < 3; k++) {
+            above_m[k] = nearest.direction[k] * (tellus_radius_m(planet) + nearest.base_m + 2.0 * nearest.size_m);
+            down[k] = -nearest.direction[k];
+        }
+        struct TellusObject object = {0};
+        double away_m = tellus_objects_raycast(objects, above_m, down, 3.0 * nearest.size_m, NULL, &object);
+        if (isnan(away_m)) fail();
+        int64_t hidden = isinf(away_m) ? 0 : tellus_objects_hide(objects, &object, 1);
+        printf("%s after %.3f, hidden %lld\n", isinf(away_m) ? "nothing" : "hit", isinf(away_m) ? 0.0 : away_m,
+               (long long)hidden);
+    }
+    printf("hidden %lld\n", (long long)tellus_objects_hidden(objects, NULL, 0));
+    tellus_objects_free(objects);
+    free(around);
 
     free(indices);
     free(positions_m);

@@ -1,4 +1,4 @@
-"""Prints the ground under some places, the extent of a tile, and clouds, water and a falling ball at a time.
+"""Prints the ground under some places, the extent of a tile, clouds, water and a falling ball at a time, and objects.
 
 Build the library first (docs/embedding.md), then: python3 examples/embed/heights.py target/debug/libtellus.so
 """
@@ -6,7 +6,8 @@ Build the library first (docs/embedding.md), then: python3 examples/embed/height
 import ctypes
 import math
 import sys
-from ctypes import POINTER, byref, c_bool, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p
+from ctypes import POINTER, byref, c_bool, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t, c_uint32, c_uint64
+from ctypes import c_void_p
 
 SIDE = 33
 
@@ -31,6 +32,27 @@ class Contact(ctypes.Structure):
     _fields_ = [("share", c_double), ("gap_m", c_double), ("point_m", c_double * 3), ("normal", c_double * 3)]
 
 
+class Instance(ctypes.Structure):
+    _fields_ = [
+        ("id", c_uint64),
+        ("seed", c_uint32),
+        ("population", c_uint32),
+        ("direction", c_double * 3),
+        ("ground_m", c_double),
+        ("base_m", c_double),
+        ("axis", c_double * 3),
+        ("turn_rad", c_double),
+        ("size_m", c_double),
+        ("brightness", c_double),
+        ("variant", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class Object(ctypes.Structure):
+    _fields_ = [("id", c_uint64), ("seed", c_uint32), ("reserved", c_uint32)]
+
+
 def load(path):
     library = ctypes.CDLL(path)
     numbers = POINTER(c_double)
@@ -51,6 +73,14 @@ def load(path):
             c_bool,
             [c_void_p, numbers, c_double, c_uint32, c_int32, c_int32, POINTER(c_float), POINTER(c_float)],
         ),
+        "tellus_population_name": (c_char_p, [c_void_p, c_uint32]),
+        "tellus_instances": (c_int64, [c_void_p, numbers, c_double, POINTER(Instance), c_size_t]),
+        "tellus_nearest_object": (c_int32, [c_void_p, numbers, c_double, c_int32, POINTER(Instance)]),
+        "tellus_objects": (c_void_p, [c_void_p]),
+        "tellus_objects_free": (None, [c_void_p]),
+        "tellus_objects_raycast": (c_double, [c_void_p, numbers, numbers, c_double, numbers, POINTER(Object)]),
+        "tellus_objects_hide": (c_int64, [c_void_p, POINTER(Object), c_size_t]),
+        "tellus_objects_hidden": (c_int64, [c_void_p, POINTER(Object), c_size_t]),
         "tellus_sweep": (c_int32, [c_void_p, numbers, c_double, numbers, c_double, POINTER(Contact)]),
     }
     for name, (result, arguments) in signatures.items():
@@ -117,7 +147,39 @@ def main():
     first = (c_double * 3)(*directions[:3])
     check(tellus.tellus_chunk(planet, first, 100.0, 8, -1, 2, chunk_m, normals))
     print("chunk " + " ".join(f"{c:.3f}" for c in chunk_m[240:]))
+    print_objects(tellus, check, planet, directions)
     tellus.tellus_planet_free(planet)
+
+
+def print_objects(tellus, check, planet, directions):
+    """Plants and stones around places. The nearest of each is hit from above, and hidden."""
+    objects = check(tellus.tellus_objects(planet))
+    for index in range(0, len(directions), 3):
+        direction = (c_double * 3)(*directions[index : index + 3])
+        count = tellus.tellus_instances(planet, direction, 30.0, None, 0)
+        check(count >= 0)
+        around = (Instance * count)()
+        check(tellus.tellus_instances(planet, direction, 30.0, around, count) == count)
+        assert list(around) == sorted(around, key=lambda instance: instance.id)
+        print(f"objects {count}")
+        nearest = Instance()
+        there = tellus.tellus_nearest_object(planet, direction, 200.0, -1, byref(nearest))
+        check(there >= 0)
+        if there == 0:
+            continue
+        name = tellus.tellus_population_name(planet, nearest.population).decode()
+        print(f"nearest {name} {nearest.id} {nearest.size_m:.3f}")
+        over_m = tellus.tellus_radius_m(planet) + nearest.base_m + 2.0 * nearest.size_m
+        above_m, down = (c_double * 3)(*[c * over_m for c in nearest.direction]), (c_double * 3)()
+        down[:] = [-c for c in nearest.direction]
+        met = Object()
+        away_m = tellus.tellus_objects_raycast(objects, above_m, down, 3.0 * nearest.size_m, None, byref(met))
+        check(not math.isnan(away_m))
+        is_hit = math.isfinite(away_m)
+        hidden = tellus.tellus_objects_hide(objects, byref(met), 1) if is_hit else 0
+        print(f"{'hit' if is_hit else 'nothing'} after {away_m if is_hit else 0.0:.3f}, hidden {hidden}")
+    print(f"hidden {tellus.tellus_objects_hidden(objects, None, 0)}")
+    tellus.tellus_objects_free(objects)
 
 
 main()

@@ -73,6 +73,15 @@ pub(super) unsafe fn output<'a, T>(first: *mut T, count: usize, name: &str) -> R
     Ok(unsafe { std::slice::from_raw_parts_mut(first, count) })
 }
 
+/// A buffer to write, or an empty one for NULL.
+///
+/// # Safety
+/// As [`output`].
+pub(super) unsafe fn optional_output<'a, T>(first: *mut T, count: usize, name: &str) -> Result<&'a mut [T], String> {
+    // SAFETY: the caller's promise.
+    if first.is_null() { Ok(&mut []) } else { unsafe { output(first, count, name) } }
+}
+
 fn checked<T>(first: *const T, count: usize, name: &str) -> Result<(), String> {
     if first.is_null() {
         return Err(format!("{name} is NULL"));

@@ -1,6 +1,6 @@
 //! The C interface: a planet for engines that do not speak Rust (Unity, Unreal, Godot, Python).
 //!
-//! - this file and `moving`: the functions, of which `include/tellus.h` is made
+//! - this file, `moving` and `objects`: the functions, of which `include/tellus.h` is made
 //! - `answers`: errors and the caller's buffers
 //!
 //! A shared library is built with `cargo rustc --lib --no-default-features --features capi --crate-type cdylib`.
@@ -8,8 +8,11 @@
 
 mod answers;
 pub mod moving;
+pub mod objects;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_objects;
 
 use crate::clouds::CloudField;
 use crate::planet::{Key, Planet};
@@ -23,12 +26,13 @@ use std::sync::{Arc, OnceLock};
 
 /// A planet, ready for queries. Any number of threads may ask at once.
 pub struct TellusPlanet {
-    terrain: Terrain,
+    terrain: Arc<Terrain>,
     /// Made when clouds are asked for.
     clouds: OnceLock<CloudField>,
     name: CString,
     hash: CString,
     biomes: Vec<CString>,
+    populations: Vec<CString>,
 }
 
 /// The surface under one direction.
@@ -423,10 +427,11 @@ fn ready(planet: Planet, cache_folder: Option<&str>) -> Result<*mut TellusPlanet
     let name = c_text(&planet.name);
     let hash = c_text(&format!("{:032x}", Key::of_planet(&planet).bits()));
     let biomes = planet.biomes.palette.iter().map(|biome| c_text(&biome.name)).collect();
+    let populations = planet.life.iter().map(|population| c_text(&population.name)).collect();
     let store = cache_folder.map(|folder| Arc::new(MapStore::new(folder, CACHE_BYTES)));
     let terrain = Terrain::load(planet.into(), store, &|_| true).map_err(|error| error.to_string())?;
-    let terrain = terrain.ok_or("loading stopped")?;
-    Ok(Box::into_raw(Box::new(TellusPlanet { terrain, clouds: OnceLock::new(), name, hash, biomes })))
+    let terrain = Arc::new(terrain.ok_or("loading stopped")?);
+    Ok(Box::into_raw(Box::new(TellusPlanet { terrain, clouds: OnceLock::new(), name, hash, biomes, populations })))
 }
 
 /// # Safety

@@ -187,20 +187,15 @@ pub unsafe extern "C" fn tellus_sweep(
         // SAFETY: the caller's promise.
         let terrain = &unsafe { valid(planet) }?.terrain;
         // SAFETY: the caller's promise.
-        let (ends_m, motion_m, contact) =
-            unsafe { (input(ends_m, 6, "ends_m")?, input(motion_m, 3, "motion_m")?, output(contact, 1, "contact")?) };
+        let (capsule, motion_m, contact) =
+            unsafe { (capsule_of(ends_m, radius_m)?, input(motion_m, 3, "motion_m")?, output(contact, 1, "contact")?) };
         let motion_m = DVec3::from_slice(motion_m);
-        let ends_planet_m = [DVec3::from_slice(ends_m), DVec3::from_slice(&ends_m[3..])];
-        if !ends_planet_m.iter().all(|end_m| end_m.is_finite()) || !motion_m.is_finite() {
-            return Err("ends_m or motion_m is not finite".to_owned());
-        }
-        if !(radius_m > 0.0 && radius_m.is_finite()) {
-            return Err(format!("radius_m is {radius_m}; use more than 0"));
+        if !motion_m.is_finite() {
+            return Err("motion_m is not finite".to_owned());
         }
         if !(skin_m >= 0.0 && skin_m.is_finite()) {
             return Err(format!("skin_m is {skin_m}; use 0 or more"));
         }
-        let capsule = Capsule { ends_planet_m, radius_m };
         let sweep = SCRATCH.with_borrow_mut(|scratch| terrain.sweep_with(&capsule, motion_m, skin_m, scratch));
         let Some(sweep) = sweep else { return Ok(0) };
         contact[0] = TellusContact {
@@ -211,6 +206,23 @@ pub unsafe extern "C" fn tellus_sweep(
         };
         Ok(1)
     })
+}
+
+/// A capsule between two ends.
+///
+/// # Safety
+/// `ends_m` is NULL or holds 6 numbers.
+pub(super) unsafe fn capsule_of(ends_m: *const f64, radius_m: f64) -> Result<Capsule, String> {
+    // SAFETY: the caller's promise.
+    let ends_m = unsafe { input(ends_m, 6, "ends_m") }?;
+    let ends_planet_m = [DVec3::from_slice(ends_m), DVec3::from_slice(&ends_m[3..])];
+    if !ends_planet_m.iter().all(|end_m| end_m.is_finite()) {
+        return Err("ends_m is not finite".to_owned());
+    }
+    if !(radius_m > 0.0 && radius_m.is_finite()) {
+        return Err(format!("radius_m is {radius_m}; use more than 0"));
+    }
+    Ok(Capsule { ends_planet_m, radius_m })
 }
 
 fn finite(time_s: f64) -> Result<f64, String> {

@@ -4,7 +4,7 @@ use super::*;
 use crate::planet::shipped;
 use std::ffi::CStr;
 
-struct Held(*mut TellusPlanet);
+pub(super) struct Held(pub(super) *mut TellusPlanet);
 
 impl Drop for Held {
     fn drop(&mut self) {
@@ -13,12 +13,12 @@ impl Drop for Held {
     }
 }
 
-fn error() -> String {
+pub(super) fn error() -> String {
     // SAFETY: the text is valid until the next failure on this thread.
     unsafe { CStr::from_ptr(tellus_last_error()) }.to_str().unwrap().to_owned()
 }
 
-fn load(text: &str) -> *mut TellusPlanet {
+pub(super) fn load(text: &str) -> *mut TellusPlanet {
     let text = CString::new(text).unwrap();
     // SAFETY: both texts end with a zero byte.
     unsafe { tellus_planet_from_text(c"test.ron".as_ptr(), text.as_ptr(), std::ptr::null()) }

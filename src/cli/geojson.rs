@@ -3,7 +3,8 @@
 use crate::sphere::LatLon;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
-use std::fmt::Write as _;
+use std::fmt::Display;
+use std::io::{self, Write};
 
 /// The endings of its files' names.
 pub(super) const ENDINGS: &[&str] = &["geojson", "json"];
@@ -27,13 +28,19 @@ impl Place for LatLon {
 
 /// The text of a collection, one feature a line.
 pub(super) fn collection(features: impl Iterator<Item = Value>) -> Result<String, String> {
-    let mut text = "{\"type\":\"FeatureCollection\",\"features\":[".to_owned();
+    let mut bytes = Vec::new();
+    write_collection(&mut bytes, features).map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|error| error.to_string())
+}
+
+/// Writes a collection, one feature a line.
+pub(super) fn write_collection(out: &mut impl Write, features: impl Iterator<Item = impl Display>) -> io::Result<()> {
+    out.write_all(b"{\"type\":\"FeatureCollection\",\"features\":[")?;
     for (k, feature) in features.enumerate() {
         let comma = if k == 0 { "" } else { "," };
-        write!(text, "{comma}\n{feature}").map_err(|error| error.to_string())?;
+        write!(out, "{comma}\n{feature}")?;
     }
-    text.push_str("\n]}\n");
-    Ok(text)
+    out.write_all(b"\n]}\n")
 }
 
 pub(super) fn feature(geometry: &Value, properties: &Value) -> Value {

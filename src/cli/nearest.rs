@@ -1,21 +1,24 @@
-//! `tellus nearest`: the nearest place with a property.
+//! `tellus nearest`: the nearest place with a property, and the nearest object.
 
-use super::{Failure, args, load, maps, print, sample};
+use super::{Failure, args, instances, load, maps, print, sample};
+use crate::life::{Instance, NearestObject};
 use crate::planet::Planet;
 use crate::sphere::LatLon;
-use crate::terrain::{Sample, Search, Wanted};
-use serde_json::json;
+use crate::terrain::{Sample, Search, Terrain, Wanted};
+use glam::DVec3;
+use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Points along the way to the farthest place, unless a spacing is given.
 const DEFAULT_STEPS: f64 = 500.0;
 
-/// Find the nearest place with a property, such as land, a river, a biome or level ground
+/// Find the nearest place with a property, such as land, a river, a biome, level ground or a tree
 #[derive(clap::Args)]
 #[command(
     after_help = "Points are looked at on circles around the start, --spacing apart; what is narrower may be overlooked. \
-    All properties that are named must hold. Without such a place the status is 1."
+    All properties that are named must hold. Objects are all looked at, the nearest first, whatever the spacing. Without \
+    such a place the status is 1."
 )]
 pub(super) struct Args {
     /// The preset
@@ -43,7 +46,7 @@ pub(super) struct Args {
     spacing: Option<f64>,
     #[command(flatten)]
     property: Property,
-    /// Print a JSON object: lat, lon, distance_m, and what `tellus sample` tells
+    /// Print a JSON object: lat, lon, distance_m, object if one was asked for, and what `tellus sample` tells
     #[arg(long)]
     json: bool,
 }
@@ -52,9 +55,12 @@ pub(super) struct Args {
 #[derive(clap::Args)]
 #[group(required = true, multiple = true)]
 struct Property {
-    /// land: no water over the ground. sea, lake, river: their water
-    #[arg(long = "what", value_name = "WHAT", value_parser = ["land", "sea", "lake", "river"])]
-    water: Option<String>,
+    /// land: no water over the ground. sea, lake, river: their water. object: a plant, a stone or another object
+    #[arg(long, value_name = "WHAT", value_parser = ["land", "sea", "lake", "river", "object"])]
+    what: Option<String>,
+    /// An object of these populations, by their names
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    kind: Vec<String>,
     /// A biome of the palette, by its name
     #[arg(long, value_name = "BIOME")]
     biome: Option<String>,
@@ -69,25 +75,44 @@ struct Property {
     below: Option<f64>,
 }
 
+impl Property {
+    /// The water that is wanted, or that there is none.
+    fn water(&self) -> Option<&str> {
+        self.what.as_deref().filter(|what| *what != "object")
+    }
+
+    /// Whether an object is wanted.
+    fn is_object(&self) -> bool {
+        !self.kind.is_empty() || self.what.as_deref() == Some("object")
+    }
+
+    /// Whether more than an object is wanted.
+    fn is_of_ground(&self) -> bool {
+        let bounds = [self.slope, self.above, self.below];
+        self.water().is_some() || self.biome.is_some() || bounds.iter().any(Option::is_some)
+    }
+
+    /// What decides about the property.
+    fn wanted(&self) -> Wanted {
+        let normal = if self.slope.is_some() { Wanted::HEIGHT.and_normal() } else { Wanted::HEIGHT };
+        let biome = if self.biome.is_some() { normal.and_biome() } else { normal };
+        if self.water().is_some() { biome.and_water() } else { biome }
+    }
+}
+
+/// What was found.
+struct Found {
+    dir_planet: DVec3,
+    away_m: f64,
+    object: Option<Instance>,
+}
+
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
     planet.check_ground()?;
     let property = &args.property;
     let biome = property.biome.as_deref().map(|name| biome(&planet, name)).transpose()?;
-    let within_m = args.within * 1000.0;
-    let mut wanted = Wanted::HEIGHT;
-    if property.slope.is_some() {
-        wanted = wanted.and_normal();
-    }
-    if biome.is_some() {
-        wanted = wanted.and_biome();
-    }
-    if property.water.is_some() {
-        wanted = wanted.and_water();
-    }
-    let start = LatLon::from_degrees(args.lat, args.lon).direction();
-    let search =
-        Search { around_planet: start, within_m, spacing_m: args.spacing.unwrap_or(within_m / DEFAULT_STEPS), wanted };
+    let kinds = instances::chosen(&planet, &property.kind)?;
     let sea_m = planet.sea_level_m();
     let holds = |sample: &Sample| {
         let is_of = |what: &str| {
@@ -99,29 +124,90 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 _ => wet_m.is_some() && wet_m != sea_m && sample.lake.is_none(),
             }
         };
-        property.water.as_deref().is_none_or(is_of)
+        property.water().is_none_or(is_of)
             && biome.is_none_or(|biome| sample.biome == biome)
             && property.slope.is_none_or(|slope_deg| sample.slope_rad.to_degrees() <= slope_deg)
             && property.above.is_none_or(|above_m| sample.height_m >= above_m)
             && property.below.is_none_or(|below_m| sample.height_m <= below_m)
     };
+    let start = LatLon::from_degrees(args.lat, args.lon).direction();
     let terrain = maps::terrain(planet)?;
-    let Some(place) = terrain.nearest(&search, &holds, &|_| true)? else {
-        return Err(format!("there is no such place within {} km of the start", args.within).into());
+    let found = if property.is_object() {
+        object(&terrain, args, &kinds, &holds)?
+    } else {
+        let within_m = args.within * 1000.0;
+        let spacing_m = args.spacing.unwrap_or(within_m / DEFAULT_STEPS);
+        let search = Search { around_planet: start, within_m, spacing_m, wanted: property.wanted() };
+        let place = terrain.nearest(&search, &holds, &|_| true)?;
+        place.map(|place| Found { dir_planet: place.dir_planet, away_m: place.away_m, object: None })
     };
-    let (lat_deg, lon_deg) = LatLon::from_direction(place.dir_planet).to_degrees();
-    if !args.json {
-        let heading_deg = sample::heading_deg(start, place.dir_planet - start);
-        let (height_m, away_km) = (place.sample.height_m, place.away_m / 1000.0);
+    let Some(found) = found else {
+        let what = if property.is_object() { "object" } else { "place" };
+        return Err(format!("there is no such {what} within {} km of the start", args.within).into());
+    };
+    tell(&terrain, start, &found, args.json)
+}
+
+/// The nearest object of populations on ground with the other properties.
+fn object(
+    terrain: &Terrain,
+    args: &Args,
+    populations: &[u16],
+    holds: &(dyn Fn(&Sample) -> bool + Sync),
+) -> Result<Option<Found>, String> {
+    let start = LatLon::from_degrees(args.lat, args.lon).direction();
+    let (wanted, is_of_ground) = (args.property.wanted(), args.property.is_of_ground());
+    let takes = |instance: &Instance| {
+        !is_of_ground || terrain.samples(&[instance.dir_planet], wanted).first().is_some_and(holds)
+    };
+    let found = terrain.nearest_object(start, args.within * 1000.0, populations, &takes);
+    let found = found.map_err(|error| format!("--within: none is near, and {error}"))?;
+    Ok(found.map(|NearestObject { instance, away_m, .. }| Found {
+        dir_planet: instance.dir_planet,
+        away_m,
+        object: Some(instance),
+    }))
+}
+
+/// Prints what was found.
+fn tell(terrain: &Terrain, start: DVec3, found: &Found, as_json: bool) -> Result<(), Failure> {
+    let Found { dir_planet, away_m, object } = found;
+    let (lat_deg, lon_deg) = LatLon::from_direction(*dir_planet).to_degrees();
+    if !as_json {
+        let heading_deg = sample::heading_deg(start, *dir_planet - start);
+        let (away_km, digits) = (away_m / 1000.0, if object.is_some() { 9 } else { 6 });
+        let what = match object {
+            Some(object) => {
+                let (kind, _) = instances::kind_and_scale(terrain.planet(), object);
+                format!("{kind} {}, {:.2} m high, foot at {:.1} m", object.id, object.size_m, object.base_m)
+            }
+            None => format!("height {:.1} m", terrain.height_m(*dir_planet)),
+        };
         return print(&format!(
-            "{lat_deg:.6}, {lon_deg:.6}: {away_km:.3} km away, heading {heading_deg:.0}°, height {height_m:.1} m"
+            "{lat_deg:.digits$}, {lon_deg:.digits$}: {away_km:.3} km away, heading {heading_deg:.0}°, {what}"
         ));
     }
-    let mut answer = sample::everything(&terrain, place.dir_planet, 0.0);
+    let mut answer = sample::everything(terrain, *dir_planet, 0.0);
     answer["lat"] = json!(lat_deg);
     answer["lon"] = json!(lon_deg);
-    answer["distance_m"] = json!(place.away_m);
+    answer["distance_m"] = json!(away_m);
+    if let Some(object) = object {
+        answer["object"] = of_object(terrain.planet(), object);
+    }
     print(&format!("{answer:#}"))
+}
+
+fn of_object(planet: &Planet, object: &Instance) -> Value {
+    let (kind, scale) = instances::kind_and_scale(planet, object);
+    json!({
+        // A number of JSON does not hold all bits of an id.
+        "id": object.id.to_string(),
+        "kind": kind,
+        "height_m": object.base_m,
+        "size_m": object.size_m,
+        "turn_deg": object.turn_rad.to_degrees(),
+        "scale": scale,
+    })
 }
 
 /// The index of a biome.

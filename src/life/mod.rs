@@ -6,7 +6,7 @@
 //! - `suitability`: how well a place suits a population
 //! - `placement`: the objects of a cell
 //! - `canopy`: what populations cover of the ground
-//! - [`query`]: objects of a terrain, for games and exports
+//! - [`query`]: objects of a terrain, for games and exports; `nearest`: the nearest one
 //! - `solid`: what bodies hit of objects, and what moves among them
 //! - [`scenery`]: the objects that a view draws, kept from one view to the next
 //!
@@ -20,6 +20,7 @@ pub mod form;
 mod grid;
 mod hash;
 mod model;
+mod nearest;
 mod placement;
 pub mod query;
 pub mod scenery;
@@ -29,6 +30,7 @@ pub(crate) mod suitability;
 
 pub use canopy::{Canopies, Canopy};
 pub use model::Model;
+pub use nearest::NearestObject;
 pub use query::{Instance, TooMany};
 pub use scenery::{Scenery, SceneryCell};
 pub use solid::{HiddenObjects, Met, ObjectId, ObjectPatch, RayHit, Surroundings};

@@ -26,6 +26,11 @@ impl Model {
         let variants = variants.map(|variant| form::meshes(&population.form, seed(population, variant))).collect();
         Self { key: Self::key_of(population), variants }
     }
+
+    /// Mesh of one variant of a population's form at the nearest level of detail; see [`form::mesh`].
+    pub fn nearest(population: &Population, variant: u8) -> Mesh {
+        form::mesh(&population.form, seed(population, variant.into()), 0)
+    }
 }
 
 /// Seed of a variant of a population's form.

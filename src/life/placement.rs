@@ -38,6 +38,13 @@ impl Placement {
         populations.map(|(index, population)| Self::new(planet, population, index as u16)).collect()
     }
 
+    /// Those of some populations that are on, by their indices; of all if none is named.
+    pub(super) fn of(planet: &Planet, populations: &[u16]) -> Vec<Self> {
+        let mut all = Self::all(planet);
+        all.retain(|placement| populations.is_empty() || populations.contains(&placement.index));
+        all
+    }
+
     fn new(planet: &Planet, population: &Population, index: u16) -> Self {
         Self {
             grid: Grid::new(planet, population),
@@ -124,6 +131,7 @@ impl Placement {
         Instance {
             id: candidate.id,
             population: self.index,
+            seed: population.seed,
             dir_planet: up,
             ground_m: sample.height_m,
             base_m: sample.height_m - population.sunk * size_m,

@@ -21,6 +21,8 @@ pub struct Instance {
     pub id: u64,
     /// Index of its population in [`Planet::life`](crate::planet::Planet::life).
     pub population: u16,
+    /// Seed of its population.
+    pub seed: u32,
     /// Unit vector from the planet's centre through the place.
     pub dir_planet: DVec3,
     /// Height of the ground there above the reference sphere, metres: that of [`Terrain::height_m`], to the bit.
@@ -47,7 +49,7 @@ pub struct Instance {
 impl Instance {
     /// Its name among all objects of the planet.
     pub fn object(&self) -> ObjectId {
-        ObjectId { population: self.population, id: self.id }
+        ObjectId { seed: self.seed, id: self.id }
     }
 
     /// Foot of the form in the planet frame, on a planet of a radius.
@@ -88,41 +90,53 @@ impl Terrain {
     pub fn instances(&self, dir_planet: DVec3, radius_m: f64) -> Result<Vec<Instance>, TooMany> {
         let (dir, planet_m) = (dir_planet.normalize_or(DVec3::Z), self.planet().radius_m());
         let reach_rad = radius_m / planet_m;
-        self.instances_where(dir, radius_m, &|at| angle(at, dir) <= reach_rad)
+        self.instances_where(dir, radius_m, &[], &|at| angle(at, dir) <= reach_rad)
     }
 
-    /// The objects within `radius_m` of a direction whose place a filter takes.
+    /// The objects of some populations, or of all if none is named, within `radius_m` of a direction whose place a
+    /// filter takes.
     pub(crate) fn instances_where(
         &self,
         dir: DVec3,
         radius_m: f64,
+        populations: &[u16],
         takes: &(dyn Fn(DVec3) -> bool + Sync),
     ) -> Result<Vec<Instance>, TooMany> {
         let radius_m = if radius_m > 0.0 { radius_m } else { 0.0 };
         let planet_m = self.planet().radius_m();
-        let placements = Placement::all(self.planet());
+        let placements = Placement::of(self.planet(), populations);
         let area_m2 = std::f64::consts::PI * radius_m.min(2.0 * planet_m).powi(2);
         let candidates: f64 = placements.iter().map(|placement| placement.most_per_m2() * area_m2).sum();
         if candidates > Self::MOST_INSTANCES as f64 {
             return Err(TooMany { candidates: candidates as u64, most: Self::MOST_INSTANCES });
         }
         let cells = placements.iter().flat_map(|placement| {
-            let cells = placement.grid.cells_within(dir, radius_m).into_iter();
-            cells.map(move |cell| (placement.soil_node(cell), placement, cell))
+            placement.grid.cells_within(dir, radius_m).into_iter().map(move |cell| (placement, cell))
         });
-        let mut cells: Vec<(Option<NodeId>, &Placement, NodeId)> = cells.collect();
+        let mut found: Vec<Instance> = Vec::new();
+        self.place_cells(cells.collect(), &|instance| takes(instance.dir_planet), &mut |part| found.extend(part));
+        found.sort_unstable_by_key(|instance| (instance.id, instance.population));
+        Ok(found)
+    }
+
+    /// Places the objects of cells, on all cores, and calls with those that a filter takes, part by part.
+    pub(super) fn place_cells(
+        &self,
+        cells: Vec<(&Placement, NodeId)>,
+        takes: &(dyn Fn(&Instance) -> bool + Sync),
+        each: &mut dyn FnMut(Vec<Instance>),
+    ) {
+        let with_soil = cells.into_iter().map(|(placement, cell)| (placement.soil_node(cell), placement, cell));
+        let mut cells: Vec<(Option<NodeId>, &Placement, NodeId)> = with_soil.collect();
         // Cells of one soil stand together, so that the soil of a part serves no other.
         cells.sort_by_key(|(soil, ..)| *soil);
-        let mut found: Vec<Instance> = Vec::new();
         for part in cells.chunks(PART_CELLS) {
             let mut soils = Soils::default();
             soils.add(self, part.iter().filter_map(|(soil, ..)| *soil));
             let placed = part.par_iter().map_init(PlacementScratch::default, |memory, (soil, placement, cell)| {
                 placement.place(self, *cell, soils.get(*soil), memory)
             });
-            found.par_extend(placed.flatten_iter().filter(|instance| takes(instance.dir_planet)));
+            each(placed.flatten_iter().filter(|instance| takes(instance)).collect());
         }
-        found.sort_unstable_by_key(|instance| (instance.id, instance.population));
-        Ok(found)
     }
 }

@@ -20,6 +20,8 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SceneryObject {
+    /// See [`Instance::id`].
+    pub id: u64,
     /// Foot of the form, metres from the planet's centre.
     pub foot_planet_m: DVec3,
     /// Turns the form (z up) into the planet frame.
@@ -318,6 +320,7 @@ fn make(terrain: &Terrain, needed: &Needed<'_>, soil: Option<&Soil>, memory: &mu
 
 fn object(instance: &Instance, planet_m: f64) -> SceneryObject {
     SceneryObject {
+        id: instance.id,
         foot_planet_m: instance.foot_planet_m(planet_m),
         planet_from_form: DQuat::from_mat3(&instance.planet_from_form()).normalize().as_quat(),
         size_m: instance.size_m as f32,

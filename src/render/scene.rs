@@ -6,6 +6,7 @@
 use super::biome_table::MarkedCells;
 use super::exposure::Metering;
 use super::tone::Tone;
+use crate::life::HiddenObjects;
 use crate::lod::{Camera, Quality, View};
 use crate::planet::{Planet, Star};
 use crate::system::light::StarInSky;
@@ -119,13 +120,16 @@ pub struct Body<'a> {
     pub frozen: Option<View>,
     /// Cells of the biome table whose ground is highlighted. Clouds are left out meanwhile.
     pub marked: Option<Arc<MarkedCells>>,
+    /// Objects that are not drawn and cast no shadow: those that the game has felled or taken. Where single objects are
+    /// too far to be drawn, they still count for the canopy.
+    pub hidden: Option<&'a HiddenObjects>,
 }
 
 impl<'a> Body<'a> {
     /// A body at a position in scene space, its axes those of the scene. Its planet is the surface's own.
     pub fn new(id: BodyId, surface: &'a Surface, position_m: DVec3) -> Self {
         let (revision, scene_from_body) = (surface.terrain.revision().clone(), DQuat::IDENTITY);
-        Self { id, revision, surface, position_m, scene_from_body, frozen: None, marked: None }
+        Self { id, revision, surface, position_m, scene_from_body, frozen: None, marked: None, hidden: None }
     }
 
     /// The planet.

@@ -31,7 +31,7 @@ const COMMANDS: [(&str, Options, Options); 11] = [
     (
         "nearest",
         &[
-            ("--what", &["land", "sea"]),
+            ("--what", &["land", "sea", "object"]),
             ("--slope", &["3"]),
             ("--above", &["100"]),
             ("--biome", &["Forest"]),

@@ -187,3 +187,40 @@ fn what_falls_from_trees_colours_the_ground_between_them() {
         );
     }
 }
+
+#[test]
+fn the_nearest_object_is_the_nearest_of_the_list() {
+    let sparse = Population { name: "Sparse".to_owned(), seed: 9, per_hectare: 0.02, ..trees() };
+    let terrain = terrain(vec![trees(), sparse]);
+    for (lat_deg, lon_deg) in [(20.0, 30.0), (-5.0, 100.0), (71.0, -3.0)] {
+        let dir = LatLon::from_degrees(lat_deg, lon_deg).direction();
+        let all = around(&terrain, lat_deg, lon_deg, 6000.0);
+        let away_m = |instance: &Instance| (instance.dir_planet - dir).length() * 600_000.0;
+        for only in [&[][..], &[0], &[1]] {
+            let of_kind = all.iter().filter(|one| only.is_empty() || only.contains(&one.population));
+            let wanted = of_kind.clone().min_by(|a, b| away_m(a).total_cmp(&away_m(b))).unwrap();
+            let found = terrain.nearest_object(dir, 6000.0, only, &|_| true).unwrap().unwrap();
+            assert_eq!(found.instance, *wanted);
+            assert!((found.away_m - away_m(wanted)).abs() < 1e-3);
+            // The next one, if a game has taken that.
+            let next = terrain.nearest_object(dir, 6000.0, only, &|one| one.id != wanted.id).unwrap().unwrap();
+            let second = of_kind.filter(|one| one.id != wanted.id).min_by(|a, b| away_m(a).total_cmp(&away_m(b)));
+            assert_eq!(Some(&next.instance), second);
+            // Just not within reach.
+            assert_eq!(terrain.nearest_object(dir, found.away_m * 0.999, only, &|_| true), Ok(None));
+        }
+    }
+}
+
+#[test]
+fn a_search_for_objects_has_an_end() {
+    let all = terrain(vec![trees(), Population { enabled: false, seed: 2, ..trees() }]);
+    let dir = LatLon::from_degrees(20.0, 30.0).direction();
+    let error = all.nearest_object(dir, 1e9, &[0], &|_| false).unwrap_err();
+    assert!(error.to_string().contains("ask for a smaller part"), "{error}");
+    for (within_m, only) in [(f64::NAN, 0), (-3.0, 0), (0.0, 0), (500.0, 1), (500.0, 7)] {
+        assert_eq!(all.nearest_object(dir, within_m, &[only], &|_| true), Ok(None));
+    }
+    assert_eq!(terrain(Vec::new()).nearest_object(dir, 1e9, &[], &|_| true), Ok(None));
+    assert!(all.nearest_object(glam::DVec3::NAN, 1e4, &[], &|_| true).is_ok());
+}

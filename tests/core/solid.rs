@@ -342,3 +342,32 @@ fn what_is_not_finite_or_far_too_large_meets_nothing() {
     let ended = RayLimits::default().from_m(5.0).to_m(1.0);
     assert_eq!(patch.raycast(good.ends_planet_m[0], middle(), &ended), None);
 }
+
+#[test]
+fn hidden_objects_stay_hidden_when_populations_move_are_renamed_and_come_back() {
+    let kinds = [population("Broadleaf tree", 300.0, 1), population("Boulder", 200.0, 2)];
+    let before = terrain_with(kinds.to_vec());
+    let hidden: HiddenObjects =
+        before.instances(middle(), 40.0).unwrap().iter().step_by(3).map(Instance::object).collect();
+    assert!(hidden.len() > 50, "{}", hidden.len());
+    // Saved, and read by a newer version of the planet.
+    let (json, text) = (serde_json::to_string(&hidden).unwrap(), ron::to_string(&hidden).unwrap());
+    assert_eq!(ron::from_str::<HiddenObjects>(&text).unwrap(), hidden);
+    let read: HiddenObjects = serde_json::from_str(&json).unwrap();
+    assert!(read == hidden && read.iter().is_sorted());
+    let [tree, boulder] = kinds;
+    let renamed = Population { name: "Rocks".to_owned(), ..boulder };
+    let after = terrain_with(vec![population("Conifer", 100.0, 3), renamed, tree]);
+    assert_eq!(read.strangers(after.planet()).count(), 0);
+    let mut shown = after.instances(middle(), 40.0).unwrap();
+    shown.retain(|instance| instance.seed != 3);
+    let (all, places) = (shown.len(), shown.iter().filter(|one| read.holds(one.object())).count());
+    read.retain_shown(&mut shown);
+    assert_eq!((places, all - shown.len()), (read.len(), read.len()));
+    assert_eq!(read.iter().next().unwrap().population(after.planet()), Some(2));
+    // Without the boulders theirs are told, kept, and hide nothing.
+    let without = terrain_with(vec![after.planet().life[2].clone()]);
+    let strangers: Vec<_> = read.strangers(without.planet()).collect();
+    assert!(!strangers.is_empty() && strangers.iter().all(|object| object.seed == 2));
+    assert!(strangers.iter().all(|object| object.population(without.planet()).is_none() && read.holds(*object)));
+}

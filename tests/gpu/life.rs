@@ -2,6 +2,7 @@
 
 use crate::support::{SIZE_PX, camera, debug, frame_of, gpu, surface_of};
 use std::sync::Arc;
+use tellus::life::{HiddenObjects, Instance};
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::life::{ReadyPopulation, Stone};
 use tellus::planet::{Biome, Form, Planet, Population, Table};
@@ -129,6 +130,49 @@ fn objects_shade_the_ground_behind_them_and_the_ground_before_them_is_lit() {
         }
     }
     assert!(shaded > 2 && lit > 2, "{shaded} {lit}");
+}
+
+#[test]
+fn hidden_objects_and_their_shadows_are_not_in_the_picture_and_all_others_are() {
+    let planet = planet(2.0, 60.0);
+    let bare = Arc::new(Planet { life: Vec::new(), ..(*planet).clone() });
+    let view = view(&planet, 30.0, -70.0);
+    let (surface, empty) = (surface_of(&planet, &view), surface_of(&bare, &view));
+    let sun = LatLon::from_degrees(LAT_DEG - 60.0, LON_DEG).direction();
+    let up = view.camera.position_planet_m.normalize();
+    let all = surface.terrain.instances(up, 200.0).unwrap();
+    let picture = |hidden: &HiddenObjects| {
+        let mut scene = frame_of(&surface, &planet, view, sun);
+        scene.bodies[0].hidden = Some(hidden);
+        gpu().radiance(&scene)
+    };
+    let everything = picture(&HiddenObjects::default());
+    assert_eq!(everything, radiance(&surface, &planet, view, 60.0));
+    // Every other one, of a surface that was made before.
+    let hidden: HiddenObjects = all.iter().step_by(2).map(Instance::object).collect();
+    let some = picture(&hidden);
+    let (mut gone, mut left) = (0, 0);
+    for instance in &all {
+        let middle_m = instance.dir_planet * (500_000.0 + instance.base_m + 0.5 * instance.size_m);
+        let Some(at) = pixel(&view.camera, middle_m).filter(|at| is_red(everything[*at])) else { continue };
+        let is_hidden = hidden.holds(instance.object());
+        // Another one may stand before or behind it.
+        let is_alone = all.iter().all(|other| {
+            let away_m = (other.dir_planet - instance.dir_planet).length() * 500_000.0;
+            away_m == 0.0 || away_m > 5.0
+        });
+        if is_alone && middle_m.distance(view.camera.position_planet_m) < 80.0 {
+            assert_eq!(is_red(some[at]), !is_hidden, "pixel {at}: {:?}", some[at]);
+            *(if is_hidden { &mut gone } else { &mut left }) += 1;
+        }
+    }
+    assert!(gone > 2 && left > 2, "{gone} {left}");
+    // Without any there is neither stone nor shadow.
+    let none = picture(&all.iter().map(Instance::object).collect());
+    assert!(none.iter().all(|pixel| !is_red(*pixel)));
+    let least = |pixels: &[[f32; 3]]| pixels.iter().map(|pixel| pixel[1]).fold(f32::INFINITY, f32::min);
+    let (bare, lit) = (least(&radiance(&empty, &bare, view, 60.0)), least(&none));
+    assert!(lit > 0.85 * bare && least(&everything) < 0.5 * bare, "{lit} {bare} {}", least(&everything));
 }
 
 #[test]

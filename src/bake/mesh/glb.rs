@@ -2,6 +2,8 @@
 //! detail follow MSFT_lod: a reader that does not know it shows the finest level. Quantised vertices follow
 //! KHR_mesh_quantization: a reader must know it.
 
+use super::chunks::{self, ARRAY_BUFFER, BYTE, ELEMENT_ARRAY_BUFFER, FLOAT, UNSIGNED_INT, UNSIGNED_SHORT};
+use super::chunks::{floats, padded, share_shorts, shorts};
 use super::geometry::Geometry;
 use super::quantize;
 use super::surface::{WATER_OPACITY, WATER_ROUGHNESS};
@@ -18,18 +20,10 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// Numbers of the specification.
-const FLOAT: u32 = 5126;
-const UNSIGNED_INT: u32 = 5125;
-const UNSIGNED_SHORT: u32 = 5123;
-const BYTE: u32 = 5120;
-const ARRAY_BUFFER: u32 = 34_962;
-const ELEMENT_ARRAY_BUFFER: u32 = 34_963;
 const LINEAR: u32 = 9729;
 const LINEAR_MIPMAP_LINEAR: u32 = 9987;
 const CLAMP_TO_EDGE: u32 = 33_071;
 const QUANTIZATION: &str = "KHR_mesh_quantization";
-const HEAD: usize = 12;
-const CHUNK_HEAD: usize = 8;
 
 /// Share of the picture's height below which a coarser level of detail does, for each halving.
 const COVERAGE: f64 = 0.5;
@@ -139,9 +133,9 @@ impl Part<'_> {
             Part::Tangents(tangents) => {
                 tangents.iter().try_for_each(|tangent| floats(out, &tangent.extend(1.0).to_array()))
             }
-            Part::Colors(colors) => colors.iter().try_for_each(|color| {
-                shorts(out, &color.extend(1.0).to_array().map(|value| (value * 65_535.0).round() as u16))
-            }),
+            Part::Colors(colors) => {
+                colors.iter().try_for_each(|color| shorts(out, &share_shorts(color.extend(1.0).to_array())))
+            }
             Part::Triangles(geometry) => {
                 geometry.triangles().flatten().try_for_each(|index| out.write_all(&index.to_le_bytes()))
             }
@@ -161,14 +155,6 @@ impl Part<'_> {
             Part::File(file) => out.write_all(file),
         }
     }
-}
-
-fn floats(out: &mut impl Write, values: &[f32]) -> io::Result<()> {
-    values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
-}
-
-fn shorts(out: &mut impl Write, values: &[u16]) -> io::Result<()> {
-    values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
 }
 
 fn bytes(out: &mut impl Write, values: [i8; 4]) -> io::Result<()> {
@@ -392,32 +378,13 @@ impl<'a> Document<'a> {
         document
     }
 
-    fn encode(&self, mut out: impl Write) -> io::Result<()> {
-        let mut json = serde_json::to_vec(&self.json())?;
-        json.resize(padded(json.len()), b' ');
-        let total = HEAD + 2 * CHUNK_HEAD + json.len() + self.length;
-        let number = |length: usize| {
-            u32::try_from(length).map(u32::to_le_bytes).map_err(|_| {
-                io::Error::new(
-                    io::ErrorKind::InvalidInput,
-                    "a GLB holds 4 GiB; use a wider spacing or smaller textures",
-                )
+    fn encode(&self, out: impl Write) -> io::Result<()> {
+        chunks::encode(out, &self.json(), self.length, "a wider spacing or smaller textures", |out| {
+            self.parts.iter().try_for_each(|part| {
+                part.write(out)?;
+                chunks::padding(out, part.length())
             })
-        };
-        out.write_all(b"glTF")?;
-        out.write_all(&2_u32.to_le_bytes())?;
-        out.write_all(&number(total)?)?;
-        out.write_all(&number(json.len())?)?;
-        out.write_all(b"JSON")?;
-        out.write_all(&json)?;
-        out.write_all(&number(self.length)?)?;
-        out.write_all(b"BIN\0")?;
-        for part in &self.parts {
-            part.write(&mut out)?;
-            let padding = padded(part.length()) - part.length();
-            out.write_all(&[0; 3][..padding])?;
-        }
-        out.flush()
+        })
     }
 }
 
@@ -435,9 +402,4 @@ fn water_material(water: Option<&Water>) -> Value {
         },
         "extras": { "absorption_per_m": absorption_per_m },
     })
-}
-
-/// The next multiple of four: chunks and numbers begin there.
-fn padded(length: usize) -> usize {
-    length.next_multiple_of(4)
 }

@@ -10,15 +10,17 @@
 //! - region: the origin is the region's centre on the reference sphere, +X points east, +Y up, -Z north.
 //!
 //! - `square`: a square of the sphere, and the frame; `surface`: ground and water at points; `patch`: the vertices of a
-//!   square; `geometry`: triangles of a level of detail; `textures`; `quantize`: vertices as whole numbers; `glb`,
-//!   `obj`: encoders; `tileset`: 3D Tiles; `measures`: what a tile tells of itself; `implicit`: subtree
-//!   files
+//!   square; `geometry`: triangles of a level of detail; `textures`; `quantize`: vertices as whole numbers; `chunks`,
+//!   `glb`, `obj`: encoders; `objects`: plants and stones as instances; `tileset`: 3D Tiles; `measures`: what a tile
+//!   tells of itself; `implicit`: subtree files
 
+mod chunks;
 mod geometry;
 mod glb;
 mod implicit;
 mod measures;
 mod obj;
+mod objects;
 mod patch;
 mod quantize;
 mod square;
@@ -48,6 +50,7 @@ use std::path::{Path, PathBuf};
 use surface::Surface;
 use textures::Textures;
 
+pub use objects::ObjectBake;
 pub use tileset::Tileset;
 
 /// Most vertices of a mesh, all squares together; they take some 100 bytes each.

@@ -354,10 +354,9 @@ impl ObjectPatch {
                 continue;
             }
             let form = &self.forms[block.name.0];
+            let hidden = self.hidden.of_seed(form.placement.population().seed);
             for solid in &block.solids {
-                if is_near(solid.ball_m.middle, within_m + solid.ball_m.radius)
-                    && (self.hidden.is_empty() || !self.hidden.holds(object_of(solid, form)))
-                {
+                if is_near(solid.ball_m.middle, within_m + solid.ball_m.radius) && !hidden.holds(solid.id) {
                     within_m = meet(solid, form);
                 }
             }
@@ -394,7 +393,7 @@ impl ObjectPatch {
 }
 
 fn object_of(solid: &Solid, form: &SolidForm) -> ObjectId {
-    ObjectId { population: form.placement.index, id: solid.id }
+    ObjectId { seed: form.placement.population().seed, id: solid.id }
 }
 
 fn met<T>(solid: &Solid, form: &SolidForm, hit: T) -> Met<T> {

@@ -116,6 +116,7 @@ impl LifeView {
         let among = canopy::among(scenery, populations);
         let drawn = Drawn::new(view, cascades);
         let levels_px: Vec<_> = scenery.models.iter().map(|model| level_px(view.quality, model.as_deref())).collect();
+        let made = &body.surface.terrain.planet().life;
         let mut seen = Bins::new(scenery.models.len());
         let mut casting: [Bins; CASCADES] = std::array::from_fn(|_| Bins::new(scenery.models.len()));
         for cell in &scenery.cells {
@@ -130,11 +131,12 @@ impl LifeView {
             });
             let array = shade.as_ref().map_or(0, |shade| shade.at.array);
             let among = among.get(index).copied().unwrap_or_default();
+            let seed = made.get(index).map_or(population.seed, |made| made.seed);
+            let hidden = body.hidden.map(|hidden| hidden.of_seed(seed)).unwrap_or_default();
             let look = Look { population, shade, axis: axis_code(cell.id), among };
             let reach_m = scenery.reach_m.get(index).copied().unwrap_or(0.0);
-            for (object, shown) in
-                cell.objects.iter().filter_map(|object| Some((object, drawn.shown(object, reach_m, level_px)?)))
-            {
+            for object in cell.objects.iter().filter(|object| !hidden.holds(object.id)) {
+                let Some(shown) = drawn.shown(object, reach_m, level_px) else { continue };
                 let instance = look.instance(object, &shown);
                 let variant = usize::from(object.variant);
                 if is_seen {
