@@ -155,28 +155,13 @@ fn canopy_at(ids: vec2<i32>, shares: vec2f, place: CanopyPlace) -> Canopy {
     return out;
 }
 
-// Width of a fallen leaf, metres; brightness of the soil between leaves and of leaves, as factors on the mean.
-const FALLEN_M: f32 = 0.075;
-const FALLEN_LIGHT: vec2f = vec2f(0.62, 0.62);
-
-// Colour of the ground with what has fallen on it. `ground`: without; `contrast`: brightness of its pattern.
-fn littered(canopy: Canopy, ground: vec3f, contrast: f32, place: CanopyPlace) -> vec3f {
-    let share = canopy.litter.w;
+// Colour of the ground with what has fallen on it. `tint`: factor of the ground's pattern.
+fn littered(litter: vec4f, ground: vec3f, tint: vec3f) -> vec3f {
+    let share = litter.w;
     if share <= 0.003 { return ground; }
-    var color = canopy.litter.rgb / share * mix(1.0, contrast, 0.5);
-    let clear = 1.0 - smoothstep(0.12, 0.45, place.footprint_m / FALLEN_M);
-    if clear > 0.0 && frame.pattern_quality > 0.0 {
-        // Two layers, so that neither shows its lattice.
-        let at_m = body.eye_wrap_m + place.rel_m;
-        let upper = leaves_of(FALLEN_M, at_m);
-        let lower = leaves_of(0.61 * FALLEN_M, at_m.yzx + 0.3 * at_m.zxy);
-        let hue = mix(lower.tilt, upper.tilt, 1.0 - upper.gap).x;
-        let light = FALLEN_LIGHT.x + FALLEN_LIGHT.y * (1.0 - upper.gap * lower.gap);
-        color *= mix(vec3f(1.0), light * (1.0 + hue * vec3f(0.8, 0.55, 0.25)), clear);
-    }
-    // Leaves gather in hollows of the pattern.
-    let covered = saturate1(share + 0.8 * share * (1.0 - share) * (1.0 - contrast) * 2.0);
-    return mix(ground, color, covered);
+    // Leaves gather in the hollows of the pattern, which are dark.
+    let covered = saturate1(share + 1.6 * share * (1.0 - share) * (1.0 - luminance(tint)));
+    return mix(ground, litter.rgb / share * tint, covered);
 }
 
 // What objects of all layers leave to the ground: of the light of a sun with this tangent, and of the sky.

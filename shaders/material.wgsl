@@ -43,8 +43,8 @@ struct Material {
     // The two strongest biomes, -1 for none, and their shares
     biomes: vec2<i32>,
     shares: vec2f,
-    // Factor of the pattern on the brightness
-    contrast: f32,
+    // Factor of the pattern on the albedo
+    tint: vec3f,
 }
 
 fn biome_at(cell: vec2i) -> i32 {
@@ -285,6 +285,6 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     out.specular = mixture.specular * 0.08;
     out.biomes = mixture.ids;
     out.shares = mixture.weights;
-    out.contrast = mix(1.0, dot(tinted, vec3f(1.0)) / max(dot(plain, vec3f(1.0)), 1e-4), both);
+    out.tint = mix(vec3f(1.0), mix(a.tint, b.tint, t), both);
     return out;
 }

@@ -438,7 +438,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     ground.albedo *= splashed(over_sea_m, pixel_ground.spread_m, variation);
     if GIANT {
         let deck = giant_tops(up, footprint_m * 0.001 / body.radius_km);
-        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0), vec2<i32>(-1), vec2f(0.0), 1.0);
+        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0), vec2<i32>(-1), vec2f(0.0), vec3f(1.0));
     }
     let wet = pixel_ground.water.x;
     canopy_normal = n;
@@ -446,7 +446,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     // Nothing stands in a river: through its water one sees the bed.
     let on_land = 1.0 - smoothstep(0.4, 0.9, wet);
     let canopy = canopy_at(ground.biomes, on_land * ground.shares, place);
-    ground.albedo = littered(canopy, ground.albedo, ground.contrast, place);
+    ground.albedo = littered(canopy.litter, ground.albedo, ground.tint);
     if frame.debug_view == VIEW_ALBEDO {
         let albedo = canopy_albedo(canopy, ground.albedo);
         return Shaded(mix(albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);

@@ -23,6 +23,8 @@ choice! {
         Sand = "Sand",
         /// Pebbles of all sizes between finer grains.
         Gravel = "Gravel",
+        /// Powder with small craters and crumbs, as on a world without air.
+        Regolith = "Regolith",
         /// Fractured slabs with layers and lichen.
         Rock = "Rock",
         /// Soft drifts with a wind crust.

@@ -19,7 +19,7 @@ pub(super) struct Spot {
 }
 
 /// The kinds that have a pattern, in the order of their texture layers.
-pub(super) const KINDS: [Detail; 9] = [
+pub(super) const KINDS: [Detail; 10] = [
     Detail::Grass,
     Detail::Litter,
     Detail::Sand,
@@ -29,6 +29,7 @@ pub(super) const KINDS: [Detail; 9] = [
     Detail::Ice,
     Detail::Mud,
     Detail::Lava,
+    Detail::Regolith,
 ];
 
 /// Texture layer of a kind.
@@ -44,6 +45,7 @@ pub(super) fn draw(kind: Detail) -> Vec<Spot> {
         Detail::Litter => litter(),
         Detail::Sand => sand(),
         Detail::Gravel => gravel(),
+        Detail::Regolith => regolith(),
         Detail::Rock => rock(),
         Detail::Snow => snow(),
         Detail::Ice => ice(),
@@ -220,6 +222,42 @@ fn gravel() -> Vec<Spot> {
             }
         }
         spot
+    })
+}
+
+fn regolith() -> Vec<Spot> {
+    let (swells, clods, crumbs) = (Drawn::new(3, 4, 91), Drawn::new(26, 3, 92), Cells::new(46, 93));
+    // Craters of three sizes, the fewer the larger.
+    let sizes = [(4, 0.45, 94), (9, 0.5, 95), (20, 0.55, 96)].map(|(period, share, seed)| {
+        (period as f32, share, Warp::new(period, 0.10 / period as f32, seed + 50), Cells::new(period, seed))
+    });
+    each(|at| {
+        let grains = grain(at, 97);
+        let mut height = 0.014 * swells.at(at) + 0.0035 * clods.at(at) + 0.0008 * grains;
+        let mut light = 1.0 + 0.05 * grains + 0.05 * clods.at(at);
+        for (period, share, warp, cells) in &sizes {
+            let cell = cells.at(warp.at(at));
+            let [rare, width, age] = cell.own;
+            if rare > *share {
+                continue;
+            }
+            // A bowl with a raised rim; old ones are filled.
+            let radius = 0.14 + 0.2 * width;
+            let r = cell.nearest / radius;
+            let fresh = 0.25 + 0.75 * age;
+            let bowl = (r * r - 1.0).min(0.0);
+            let rim = (-((r - 1.05) / 0.28).powi(2)).exp();
+            height += fresh * radius / period * (0.30 * bowl + 0.09 * rim);
+            light += fresh * (0.06 * rim + 0.05 * bowl);
+        }
+        let crumb = crumbs.at(at.at);
+        let [rare, width, tone] = crumb.own;
+        let inside = 1.0 - crumb.nearest / (0.12 + 0.26 * width);
+        if rare < 0.16 && inside > 0.0 {
+            height += 0.007 * inside.sqrt() * (0.4 + width);
+            light *= 0.82 + 0.36 * tone;
+        }
+        Spot { height, tint: grey(light), roughness: 0.05, glow: 0.0 }
     })
 }
 
