@@ -71,14 +71,14 @@ int main(int argc, char **argv) {
     if (!tellus_chunk(planet, directions[0], 100.0, 8, -1, 2, chunk_m[0], normals[0])) fail();
     printf("chunk %.3f %.3f %.3f\n", chunk_m[80][0], chunk_m[80][1], chunk_m[80][2]);
 
-    /* Plants and stones around the places. The nearest of each is hit from above, and hidden. */
+    /* Plants and stones around the places. The nearest one of the first population is hit from above, and hidden. */
     struct TellusObjects *objects = tellus_objects(planet);
     if (!objects) fail();
     struct TellusInstance nearest, *around = malloc(sizeof *around * 50000);
     if (!around) return 1;
     for (int i = 0; i < COUNT; i++) {
         int64_t count = tellus_instances(planet, directions[i], 30.0, around, 50000);
-        int there = tellus_nearest_object(planet, directions[i], 200.0, -1, &nearest);
+        int there = tellus_nearest_object(planet, directions[i], 5000.0, 0, &nearest);
         if (count < 0 || there < 0) fail();
         printf("objects %lld\n", (long long)count);
         if (there == 0) continue;

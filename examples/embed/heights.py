@@ -152,7 +152,7 @@ def main():
 
 
 def print_objects(tellus, check, planet, directions):
-    """Plants and stones around places. The nearest of each is hit from above, and hidden."""
+    """Plants and stones around places. The nearest one of the first population is hit from above, and hidden."""
     objects = check(tellus.tellus_objects(planet))
     for index in range(0, len(directions), 3):
         direction = (c_double * 3)(*directions[index : index + 3])
@@ -160,10 +160,11 @@ def print_objects(tellus, check, planet, directions):
         check(count >= 0)
         around = (Instance * count)()
         check(tellus.tellus_instances(planet, direction, 30.0, around, count) == count)
-        assert list(around) == sorted(around, key=lambda instance: instance.id)
+        ids = [instance.id for instance in around]
+        assert ids == sorted(ids)
         print(f"objects {count}")
         nearest = Instance()
-        there = tellus.tellus_nearest_object(planet, direction, 200.0, -1, byref(nearest))
+        there = tellus.tellus_nearest_object(planet, direction, 5000.0, 0, byref(nearest))
         check(there >= 0)
         if there == 0:
             continue
