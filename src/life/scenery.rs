@@ -97,11 +97,8 @@ fn own_reach_m(placement: &Placement, quality: Quality) -> f64 {
     (placement.population().height_m * heights).min(by_count_m)
 }
 
-/// Factor on the reach of a denser population of like size beyond which another in its biomes is not drawn: single
-/// trees would stand on a forest that is a canopy already.
-const BEYOND_OTHERS: f64 = 1.3;
-
-/// Distances up to which objects of each population are drawn among all.
+/// Distances up to which objects of each population are drawn among all: none beyond a denser population of like size in
+/// its biomes, because single trees would stand on a forest that is a canopy already.
 fn reaches_m(placements: &[Placement], quality: Quality) -> Vec<f64> {
     let area = |population: &Population| population.per_hectare * population.height_m * population.height_m;
     let hides = |own: &Population, other: &Population| {
@@ -113,7 +110,7 @@ fn reaches_m(placements: &[Placement], quality: Quality) -> Vec<f64> {
     let among_m = |placement: &Placement, own_reach_m: f64| {
         let others = placements.iter().zip(&own_m);
         let denser = others.filter(|(other, _)| hides(placement.population(), other.population()));
-        denser.map(|(_, other_m)| BEYOND_OTHERS * other_m).fold(own_reach_m, f64::min)
+        denser.map(|(_, other_m)| *other_m).fold(own_reach_m, f64::min)
     };
     placements.iter().zip(&own_m).map(|(placement, own_m)| among_m(placement, *own_m)).collect()
 }
