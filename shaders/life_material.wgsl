@@ -13,6 +13,8 @@ const GRAIN_M: vec3f = vec3f(0.45, 0.13, 0.035);
 const GRAIN_HEIGHT: f32 = 0.10;
 // Width of a leaf, metres.
 const LEAF_M: f32 = 0.09;
+// Width of a bunch of needles, metres.
+const NEEDLES_M: f32 = 0.035;
 // Width of a cluster in pixels, at the least, and as a share of the height of the object, at the most.
 const CLUSTER_PIXELS: f32 = 3.0;
 const WIDEST_CLUSTER: f32 = 0.055;
@@ -127,12 +129,12 @@ fn leaves_of(width_m: f32, p_m: vec3f) -> ObjectMaterial {
     return ObjectMaterial(tint, 0.0, found - 0.5, smoothstep(0.10, 0.30, nearest));
 }
 
-// Leaves on the blades of a crown, which are wider than leaves: single ones near the eye, farther away clusters that
-// are some pixels wide, as far as they are narrower than blades.
-fn leaves(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
-    let octave = log2(max(CLUSTER_PIXELS * pixel_m / LEAF_M, 1.0));
-    let width_m = LEAF_M * exp2(floor(octave));
-    let clear = 1.0 - smoothstep(0.5, 1.0, 0.5 * LEAF_M * exp2(octave) / (WIDEST_CLUSTER * size_m));
+// Leaves on the blades of a crown, which are wider than leaves: single ones near the eye, `least_m` wide, farther away
+// clusters that are some pixels wide, as far as they are narrower than blades.
+fn leaves(least_m: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
+    let octave = log2(max(CLUSTER_PIXELS * pixel_m / least_m, 1.0));
+    let width_m = least_m * exp2(floor(octave));
+    let clear = 1.0 - smoothstep(0.5, 1.0, 0.5 * least_m * exp2(octave) / (WIDEST_CLUSTER * size_m));
     if clear <= 0.0 { return PLAIN; }
     let fine = leaves_of(width_m, p_m);
     let coarse = leaves_of(2.0 * width_m, p_m);
@@ -143,10 +145,19 @@ fn leaves(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     );
 }
 
+// Needles on the blades of a conifer, which are boughs: they stand so close that gaps show near the eye alone.
+fn needles(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
+    let clear = 1.0 - smoothstep(0.4, 1.0, pixel_m / NEEDLES_M);
+    if clear <= 0.0 { return PLAIN; }
+    let out = leaves(NEEDLES_M, p_m, size_m, pixel_m);
+    return ObjectMaterial(mix(PLAIN.tint, out.tint, clear), 0.0, clear * out.tilt, 0.8 * clear * out.gap);
+}
+
 // `leaf`: share of the second colour. `p_m`: place in the form.
 fn object_material(kind: u32, leaf: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     if kind == ROCK { return rock(p_m, size_m, pixel_m); }
     if kind >= LEAFY && leaf < 0.5 { return bark(p_m, pixel_m); }
-    if kind == LEAFY { return leaves(p_m, size_m, pixel_m); }
+    if kind == LEAFY { return leaves(LEAF_M, p_m, size_m, pixel_m); }
+    if kind == NEEDLED { return needles(p_m, size_m, pixel_m); }
     return PLAIN;
 }

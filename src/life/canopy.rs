@@ -17,7 +17,7 @@ pub(crate) fn cover(population: &Population) -> Cover {
 const CASTING_M: [f64; 2] = [0.6, 2.0];
 
 /// Area of objects, for each area of ground, over which fallen leaves close: they fall beside the crowns, too.
-pub(crate) const LITTER_AREA: f64 = 0.6;
+pub(crate) const LITTER_AREA: f64 = 0.4;
 /// Colour of what has fallen as shares of the colour of wood: what rots is darker, and browner.
 const LITTER_OF: [f64; 3] = [0.54, 0.46, 0.33];
 

@@ -12,8 +12,10 @@ pub(crate) enum Material {
     Rock,
     /// Bark on wood, and single leaves on blades.
     Leafy,
-    /// Bark on wood; needles are those of the mesh.
+    /// Bark on wood, and needles on twigs.
     Needled,
+    /// Bark on wood; leaves are those of the mesh.
+    Fronded,
 }
 
 impl Material {
@@ -22,7 +24,8 @@ impl Material {
         match form {
             Form::Stone(_) => Self::Rock,
             Form::Tree(_) => Self::Leafy,
-            Form::Conifer(_) | Form::Palm(_) => Self::Needled,
+            Form::Conifer(_) => Self::Needled,
+            Form::Palm(_) => Self::Fronded,
             _ => Self::Plain,
         }
     }
