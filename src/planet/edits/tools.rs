@@ -65,6 +65,8 @@ kinds! {
     Rain(RainPaint) = "Rain",
     /// The course of a river of the structure, from its spring to its mouth: it carves its valley along the line.
     River(RiverCourse) = "River",
+    /// Paints what stands on the ground: clears it, or plants it. Nothing stands in water that may not.
+    Life(LifePaint) = "Life",
 }
 
 impl Tool {
@@ -93,9 +95,10 @@ impl Tool {
     }
 
     /// Whether the tool leaves the ground under it as it is: it paints the climate, the clouds, a mask of
-    /// layers or the structure.
+    /// layers, what stands on the ground or the structure.
     pub fn is_paint(&self) -> bool {
-        matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_) | Tool::Mask(_))
+        matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_))
+            || matches!(self, Tool::Mask(_) | Tool::Life(_))
             || self.is_structural()
     }
 
@@ -407,5 +410,17 @@ params! {
         spring_m3_s: f64 = 200.0, "Spring", Unit::CubicMetresPerSecond, log(0.0, 500_000.0), Stage::Field;
         /// How far the river has cut down: 0 is as its water has, 1 is as gently as rivers run.
         cut: f64 = 0.9, "Cut", Unit::None, linear(0.0, 1.0), Stage::Field;
+    }
+}
+
+params! {
+    /// `share + (density - share) * w`, where `share` is the share of its greatest density that a population has
+    pub struct LifePaint {
+        /// Name of the population; empty for all of them.
+        population: String = String::new(), "Population", Unit::None, Domain::PopulationName { max_chars: 48 },
+            Stage::Life;
+        /// Share of its greatest density that the population gets: 0 clears, 1 plants it as dense as where everything
+        /// suits it.
+        density: f64 = 1.0, "Density", Unit::None, linear(0.0, 1.0), Stage::Life;
     }
 }

@@ -20,6 +20,7 @@ use super::wgsl::{Constant, constant};
 use super::{horizon_pool, material_noise};
 use crate::giant;
 use crate::life::form::cover;
+use crate::life::planting_map;
 use crate::life::scenery::FULL_SHARE;
 use crate::life::suitability;
 use crate::lod::horizon::AZIMUTHS;
@@ -103,6 +104,7 @@ pub(crate) fn text() -> String {
         ("CANOPY_ROW", &(CANOPY as i32)),
         ("CANOPY_LAYERS", &(CANOPY_LAYERS as i32)),
         ("CANOPY_LAYER_ROWS", &(CANOPY_LAYER_ROWS as i32)),
+        ("PLANTING_SIDE", &(planting_map::SIDE as u32)),
         ("PATTERN_STEEPEST", &f64::from(PATTERN_STEEPEST)),
         ("PATTERN_ROUGHNESS", &f64::from(PATTERN_ROUGHNESS)),
         ("PATTERN_SIDE", &(material_noise::SIDE as f64)),
