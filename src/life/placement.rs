@@ -6,9 +6,10 @@ use super::soil::Soil;
 use super::suitability::Suitability;
 use crate::planet::{Form, Key, Planet, Population};
 use crate::sphere::NodeId;
-use crate::terrain::edits::{Edits, Planting, PopulationId};
+use crate::terrain::edits::{Edits, Placed, Planting, PopulationId};
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
+use std::collections::HashSet;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -118,7 +119,27 @@ impl Placement {
             };
             (candidate.rank < density).then(|| self.instance(candidate, density, sample))
         });
-        placed.collect()
+        let mut placed: Vec<Instance> = placed.collect();
+        if let Some(edits) = edits {
+            placed.extend(self.placed_by_hand(terrain, edits, cell));
+        }
+        placed
+    }
+
+    /// The objects of a cell that are placed by hand.
+    fn placed_by_hand(&self, terrain: &Terrain, edits: &Edits, cell: NodeId) -> Vec<Instance> {
+        let mut seen = HashSet::new();
+        let placed = edits.placed(cell, (self.id, self.index == 0)).into_iter();
+        let placed = placed.map(|placed| (self.grid.placed(cell, placed.dir), placed));
+        // Two at one place are one.
+        let placed = placed.filter(|(candidate, _)| seen.insert(candidate.id));
+        let instance = |(candidate, placed): (Candidate, Placed)| {
+            let sample = terrain.sample(placed.dir);
+            let size_m = self.population().height_m * placed.size;
+            let base_m = sample.height_m - self.population().sunk * size_m;
+            Instance { turn_rad: placed.turn_rad, size_m, base_m, ..self.instance(&candidate, 1.0, &sample) }
+        };
+        placed.map(instance).collect()
     }
 
     /// The key of the edits that change where the population stands in a cell. None if none does.

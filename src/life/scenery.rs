@@ -165,7 +165,7 @@ impl SceneryCache {
             models: vec![None; populations],
             reach_m: vec![0.0; populations],
             covers: vec![None; populations],
-            planting: self.planting.around(terrain, view.camera.position_planet_m),
+            planting: None,
         };
         let mut is_whole = true;
         if keep_going() {
@@ -188,6 +188,7 @@ impl SceneryCache {
         is_whole &= self.make_lacking(terrain, &needed, keep_going);
         let cells = needed.iter().filter_map(|needed| self.known_by_rules(needed));
         scenery.cells = cells.filter(|cell| !cell.objects.is_empty()).cloned().collect();
+        scenery.planting = self.planting.around(terrain, view.camera.position_planet_m);
         self.trim(&scenery);
         (scenery, is_whole)
     }

@@ -6,12 +6,12 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use tellus::life::{Canopies, Instance, ObjectPatch, SceneryCell};
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::edits::{EditPoint, GroundEdit, LifePaint, MaskPaint, Road, Tool, Wall};
+use tellus::planet::edits::{EditPoint, GroundEdit, LifePaint, MaskPaint, PlacedObject, Road, Tool, Wall};
 use tellus::planet::param::{Stage, Stages};
 use tellus::planet::{Biome, Layer, Planet, Population, Shape, Table, Water};
 use tellus::sphere::LatLon;
 use tellus::terrain::{Capsule, Revision, Terrain};
-use tellus::tiles::{Builder, Surface, build_now};
+use tellus::tiles::{Builder, Surface};
 
 const RADIUS_M: f64 = 1_000_000.0;
 
@@ -162,7 +162,7 @@ fn line() -> [EditPoint; 3] {
 fn width_at(dir: DVec3) -> Option<f64> {
     let lon_deg = dir.y.atan2(dir.x).to_degrees();
     let share = lon_deg / 0.03;
-    (0.0..2.0).contains(&share).then(|| if share < 1.0 { 1.0 - 0.5 * share } else { 0.5 + (share - 1.0) })
+    (0.0..2.0).contains(&share).then_some(if share < 1.0 { 1.0 - 0.5 * share } else { 0.5 + (share - 1.0) })
 }
 
 #[test]
@@ -307,8 +307,8 @@ fn a_stroke_of_life_changes_no_key_of_tiles_and_makes_the_cells_anew_that_it_tou
     };
     assert!(count(&before) > 100);
     assert_eq!(count(&after), 0);
-    let afresh = build_now(&Arc::new(painted.clone()), &view).unwrap();
-    let counts = [&after, &Arc::new(afresh)].map(|surface| surface.scenery.object_count());
+    let afresh = settled(&Builder::new(|| {}), &painted, &view);
+    let counts = [&after, &afresh].map(|surface| surface.scenery.object_count());
     assert_eq!(counts[0], counts[1]);
 
     // Undone, the first objects are back.
@@ -364,4 +364,58 @@ fn strokes_go_through_text_and_an_unknown_population_is_told() {
     assert!(message.contains("edits[0].tool.density: 1.25 is out of range; use 0 to 1"), "{message}");
     let bare = Planet { life: Vec::new(), ..planet };
     assert!(bare.check().unwrap_err().to_string().contains("add a population"));
+}
+
+fn object(population: &str, size: f64, turn_deg: f64, point: EditPoint) -> GroundEdit {
+    let population = population.to_owned();
+    edit(Tool::Object(PlacedObject { population, size, turn_deg, random_turn_deg: 0.0 }), 0.002, &[point])
+}
+
+#[test]
+fn single_objects_stand_where_they_are_put_as_high_and_turned_as_asked() {
+    let place = at(20.0, 30.0);
+    let others = terrain(level(two(), vec![stroke("", 0.0, 100.0, &[place])]));
+    assert!(others.instances(place.direction(), 90.0).unwrap().is_empty());
+    let north = tellus::sphere::Tangent::new(place.direction()).north_planet;
+    for (name, population) in [("Palm", 1), ("", 0)] {
+        // Strokes do not clear it, before or after.
+        let edits = vec![object(name, 1.5, 90.0, place), stroke("", 0.0, 100.0, &[place])];
+        let planet = level(two(), edits);
+        let terrain = terrain(planet.clone());
+        let found = terrain.instances(place.direction(), 90.0).unwrap();
+        let [one] = found[..] else { panic!("{name}: {} objects", found.len()) };
+        assert_eq!((one.population, one.dir_planet, one.rank), (population, place.direction(), 0.0));
+        assert_eq!((one.ground_m, one.size_m), (terrain.height_m(place.direction()), 15.0));
+        assert!(one.planet_from_form().x_axis.dot(north) < -0.9, "clockwise from east is south");
+        // Bodies hit it, and it keeps its id where others come and go.
+        let terrain = Arc::new(terrain);
+        let foot_m = one.foot_planet_m(RADIUS_M) + one.dir_planet * 1.5;
+        let met = ObjectPatch::new(terrain).contact(&Capsule::sphere(foot_m, 0.3), 0.0).unwrap();
+        assert_eq!(met.object, one.object());
+        let mut more = planet;
+        more.edits.push(object(name, 1.0, 0.0, at(20.0003, 30.0)));
+        let more = self::terrain(more).instances(place.direction(), 90.0).unwrap();
+        assert!(more.len() == 2 && more.contains(&one));
+    }
+}
+
+#[test]
+fn objects_are_there_once_in_parts_and_with_copies_and_images() {
+    let place = at(0.0, 45.0);
+    let grove = GroundEdit { copies: 60, spread_km: 0.2, mirrored: true, ..object("Palm", 1.0, 0.0, at(0.001, 45.0)) };
+    let terrain = terrain(level(two(), vec![grove]));
+    let palms = |radius_m: f64, point: &EditPoint| -> Vec<Instance> {
+        let found = terrain.instances(point.direction(), radius_m).unwrap();
+        found.into_iter().filter(|instance| instance.population == 1).collect()
+    };
+    let whole = palms(300.0, &place);
+    assert_eq!(whole.len(), 120);
+    let corner = at(0.002, 45.003);
+    let wanted: Vec<Instance> = whole.iter().filter(|palm| away_m(palm, &corner) <= 80.0).copied().collect();
+    assert!(wanted.len() > 5);
+    assert_eq!(palms(80.0, &corner), wanted);
+    // Only the cells that hold them are made anew.
+    let planets = [level(two(), Vec::new()), level(two(), vec![object("Oak", 1.0, 0.0, place)])];
+    let [before, after] = planets.map(|planet| Revision::try_new(Arc::new(planet)).unwrap());
+    assert_eq!(after.changes_since(&before), Stages::of(&[Stage::Life]));
 }

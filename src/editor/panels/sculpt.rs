@@ -7,7 +7,7 @@ use crate::editor::state::describe;
 use crate::editor::viewport::sculpt::{SculptLink, tidy_km};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::row_view::{LockView, RowView};
-use crate::planet::edits::{Flatten, GroundEdit, LifePaint, MaskPaint, edit_path};
+use crate::planet::edits::{Flatten, GroundEdit, LifePaint, MaskPaint, PlacedObject, edit_path};
 use crate::planet::param::{Choice, ParamPath};
 use crate::planet::{Mask, PaintedMask, Planet, TableRows, Tool};
 use eframe::egui;
@@ -148,10 +148,11 @@ impl SculptState {
         {
             paint.biome = first.key;
         }
-        if let Tool::Life(paint) = &mut self.brushes[at].1.tool
-            && planet.life.iter().all(|population| population.name != paint.population)
+        if let Tool::Life(LifePaint { population: name, .. }) | Tool::Object(PlacedObject { population: name, .. }) =
+            &mut self.brushes[at].1.tool
+            && planet.life.iter().all(|population| population.name != *name)
         {
-            paint.population.clear();
+            name.clear();
         }
         &mut self.brushes[at].1
     }
@@ -308,7 +309,11 @@ fn paint_mask(ui: &mut egui::Ui, edit: &GroundEdit, owner: &str) -> Option<Strin
 fn skipped(list: &[&'static str], tool: &Tool) -> Vec<&'static str> {
     let ground: &[&'static str] = if tool.is_paint() { &OF_GROUND } else { &[] };
     let stamp: &[&'static str] = if tool.is_stamp() { &[] } else { &OF_STAMPS };
-    let fades: &[&'static str] = if matches!(tool, Tool::River(_)) { &["softness"] } else { &[] };
+    let fades: &[&'static str] = match tool {
+        Tool::River(_) => &["softness"],
+        Tool::Object(_) => &["softness", "raggedness"],
+        _ => &[],
+    };
     let mask: &[&'static str] = if tool.reads_mask() { &[] } else { &OF_MASKED };
     [list, ground, stamp, fades, mask].concat()
 }
@@ -323,7 +328,7 @@ fn idle_tool(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
     if let (Tool::Clouds(_), None) = (tool, &planet.clouds) {
         ui.weak("The planet has no clouds: switch them on in the Clouds tab, or nothing is painted.");
     }
-    if matches!(tool, Tool::Life(_)) && planet.life.is_empty() {
+    if matches!(tool, Tool::Life(_) | Tool::Object(_)) && planet.life.is_empty() {
         ui.weak("The planet has no population: add one in the Life tab, or nothing is planted.");
     }
     if tool.is_structural() && planet.structure.is_none() {

@@ -50,15 +50,14 @@ pub fn biome_box(ui: &mut egui::Ui, name: &str, key: &mut char, biomes: &[BiomeN
         .accessible_name(name);
 }
 
-/// The populations of a planet by name, and all of them first.
-pub fn population_box(ui: &mut egui::Ui, name: &str, chosen: &mut String, planet: &Planet) {
-    const ALL: &str = "All populations";
+/// The populations of a planet by name. `none`: what an empty name means; it comes first.
+pub fn population_box(ui: &mut egui::Ui, (name, none): (&str, &str), chosen: &mut String, planet: &Planet) {
     egui::ComboBox::from_id_salt("population")
-        .selected_text(if chosen.is_empty() { ALL } else { chosen.as_str() })
+        .selected_text(if chosen.is_empty() { none } else { chosen.as_str() })
         .width(ui.available_width().min(160.0))
         .truncate()
         .show_ui(ui, |ui| {
-            ui.selectable_value(chosen, String::new(), ALL);
+            ui.selectable_value(chosen, String::new(), none);
             for population in planet.life.iter().filter(|population| !population.name.is_empty()) {
                 ui.selectable_value(chosen, population.name.clone(), &population.name);
             }

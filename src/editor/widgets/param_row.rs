@@ -352,7 +352,9 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> (bool,
         (Domain::File { max_chars }, ValueMut::Text(text)) => {
             return (file_field(ui, &name, text, max_chars), None);
         }
-        (Domain::PopulationName { .. }, ValueMut::Text(text)) => population_box(ui, &name, text, row.planet),
+        (Domain::PopulationName { none, .. }, ValueMut::Text(text)) => {
+            population_box(ui, (&name, none), text, row.planet);
+        }
         (Domain::MaskName { max_chars }, ValueMut::Text(text)) => {
             focus(mask_field(ui, &name, text, max_chars, row));
         }

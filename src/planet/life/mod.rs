@@ -2,7 +2,7 @@
 //!
 //! - `forms`: the forms of objects, and the parameters of each
 //! - `ready`: populations to start from
-//! - `painted`: populations that strokes of the life tool name
+//! - `painted`: populations that edits name
 
 mod forms;
 mod painted;

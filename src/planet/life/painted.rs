@@ -1,4 +1,4 @@
-//! Populations that strokes of the life tool name: they must be there, and their strokes follow them.
+//! Populations that edits name: they must be there, and their edits follow them.
 
 use super::Population;
 use crate::planet::edits::edit_path;
@@ -8,17 +8,28 @@ use crate::planet::{GroundEdit, GroundEdits, Planet, Tool};
 use std::collections::HashSet;
 
 impl GroundEdit {
-    /// The name of the population that it paints. None if it paints all of them, or something else.
+    /// The name of the population that it paints or places. None if it names none.
     pub fn painted_population(&self) -> Option<&str> {
-        match &self.tool {
-            Tool::Life(paint) if !paint.population.is_empty() => Some(&paint.population),
+        let name = match &self.tool {
+            Tool::Life(paint) => &paint.population,
+            Tool::Object(object) => &object.population,
+            _ => return None,
+        };
+        (!name.is_empty()).then_some(name)
+    }
+
+    /// The name that it may name a population by.
+    fn population_mut(&mut self) -> Option<&mut String> {
+        match &mut self.tool {
+            Tool::Life(paint) => Some(&mut paint.population),
+            Tool::Object(object) => Some(&mut object.population),
             _ => None,
         }
     }
 }
 
 impl Planet {
-    /// Strokes of the life tool that name a population that is not there.
+    /// Edits that name a population that is not there.
     pub(crate) fn painted_life_problems(&self) -> Vec<(ParamPath, String)> {
         let names: Vec<&str> = self.life.iter().map(|population| population.name.as_str()).collect();
         let known: HashSet<&str> = names.iter().copied().collect();
@@ -26,7 +37,10 @@ impl Planet {
             let name = edit.painted_population().filter(|name| !known.contains(name))?;
             let right = match &*names {
                 [] => "there is none: add a population, or remove the edit".to_owned(),
-                some => format!("use {}, or an empty text for all", one_of(some)),
+                some => {
+                    let none = if matches!(edit.tool, Tool::Life(_)) { "all" } else { "the first" };
+                    format!("use {}, or an empty text for {none}", one_of(some))
+                }
             };
             let path = edit_path(index).join("tool").join("population");
             Some((path, format!("there is no population called {name:?}; {right}")))
@@ -36,8 +50,8 @@ impl Planet {
 }
 
 impl GroundEdits {
-    /// Strokes of the life tool follow populations that were changed: those of a population that got another name take
-    /// it over, those of one that is gone go, too.
+    /// Edits follow populations that were changed: those that name a population which got another name take it over,
+    /// those of one that is gone go, too.
     pub fn follow_populations(&mut self, before: &[Population], after: &[Population]) {
         let has = |name: &str| after.iter().any(|population| population.name == name);
         let strangers: Vec<usize> = (0..self.len())
@@ -52,10 +66,8 @@ impl GroundEdits {
             // While its name is typed anew, a population has none for a moment.
             let at = name.and_then(|name| place(name).or_else(|| place("")));
             let renamed = at.filter(|_| before.len() == after.len()).and_then(|at| after.get(at));
-            match (renamed, self.get_mut(index).map(|edit| &mut edit.tool)) {
-                (Some(renamed), Some(Tool::Life(paint))) if !renamed.name.is_empty() => {
-                    paint.population.clone_from(&renamed.name);
-                }
+            match (renamed, self.get_mut(index).and_then(GroundEdit::population_mut)) {
+                (Some(renamed), Some(name)) if !renamed.name.is_empty() => name.clone_from(&renamed.name),
                 (Some(_), _) => {}
                 (None, _) => drop(self.remove(index)),
             }

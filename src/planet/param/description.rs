@@ -108,10 +108,12 @@ pub enum Domain {
         /// Most characters allowed.
         max_chars: usize,
     },
-    /// The name of a population: at most this many characters. Empty for all.
+    /// The name of a population: at most this many characters.
     PopulationName {
         /// Most characters allowed.
         max_chars: usize,
+        /// What an empty name means.
+        none: &'static str,
     },
     /// The path of a file, relative to the preset's folder or absolute; at most this many characters.
     File {
@@ -175,7 +177,7 @@ impl Param {
             Domain::Color => "0 to 1 each".to_owned(),
             Domain::Text { max_chars }
             | Domain::MaskName { max_chars }
-            | Domain::PopulationName { max_chars }
+            | Domain::PopulationName { max_chars, .. }
             | Domain::File { max_chars } => {
                 format!("at most {max_chars} characters")
             }

@@ -152,7 +152,7 @@ impl Value {
                 Value::Text(v),
                 Domain::Text { max_chars }
                 | Domain::MaskName { max_chars }
-                | Domain::PopulationName { max_chars }
+                | Domain::PopulationName { max_chars, .. }
                 | Domain::File { max_chars },
             ) => {
                 if v.chars().count() > max_chars {

@@ -19,8 +19,8 @@ impl PlantingBuffer {
         Self { buffer: buffer(device, &[0]), map: None }
     }
 
-    /// Takes the map of a body's scenery, and writes to the body's uniforms where it lies. Whether the buffer is another
-    /// one now.
+    /// Takes the map of a body's scenery, and writes to the body's uniforms where it lies. Tells whether the buffer is
+    /// another one now.
     pub(crate) fn show(&mut self, device: &wgpu::Device, body: &scene::Body<'_>, to: &mut Body) -> bool {
         let (map, eye_m) = (body.surface.scenery.planting.as_ref(), body.eye_planet_m());
         if let Some(map) = map {

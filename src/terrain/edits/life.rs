@@ -1,9 +1,12 @@
-//! Painted life: strokes that clear the ground or plant it, and roads and walls, on which nothing stands.
+//! Painted life: strokes that clear the ground or plant it, roads and walls, on which nothing stands, and objects that
+//! are placed one by one.
 
 use super::Edits;
 use super::compiled::CompiledEdit;
 use super::near::{Hit, Near, Touch};
 use super::paint::Paint;
+use super::path::Arc;
+use super::roster::slot_of;
 use crate::planet::Key;
 use crate::sphere::NodeId;
 use glam::DVec3;
@@ -47,16 +50,41 @@ impl Planting {
     }
 }
 
+/// An object that is placed by hand.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed {
+    pub(crate) dir: DVec3,
+    /// Factor on the height of its population.
+    pub(crate) size: f64,
+    /// Turn against the clock, seen from above.
+    pub(crate) turn_rad: f64,
+}
+
+impl Placed {
+    /// The object at an arc of an edit.
+    fn new(arc: &Arc, size: f64, [turn_rad, random_rad]: [f64; 2]) -> Self {
+        let turn_rad = turn_rad + random_rad * arc.turned;
+        let turn_rad = if arc.flipped { turn_rad } else { -turn_rad };
+        Self { dir: arc.a, size: size * arc.scale * arc.widths[0], turn_rad }
+    }
+}
+
 impl CompiledEdit {
     /// Whether it changes what stands on the ground.
     pub(super) fn is_life(&self) -> bool {
-        self.is_built() || matches!(self.paint(), Some(Paint::Life { .. }))
+        self.is_built() || matches!(self.paint(), Some(Paint::Life { .. } | Paint::Object { .. }))
     }
 
-    /// Whether it changes where a population stands; None for an edit that changes all of them.
+    /// Whether it places objects of a population, or of the first one.
+    fn places(&self, population: PopulationId) -> bool {
+        matches!(self.paint(), Some(Paint::Object { population: of, .. }) if of.is_none_or(|of| of == population))
+    }
+
+    /// Whether it changes the share of a population; without one, whether it changes that of all of them.
     fn plants(&self, population: Option<PopulationId>) -> bool {
         match self.paint() {
             Some(Paint::Life { population: Some(painted), .. }) => population == Some(*painted),
+            Some(Paint::Object { .. }) => false,
             _ => self.is_life(),
         }
     }
@@ -75,8 +103,33 @@ impl Edits {
 
     /// The key of the edits that touch a node and change where a population stands. None if none does.
     pub(crate) fn life_key_near(&self, id: NodeId, population: PopulationId) -> Option<Key> {
-        let key = self.life.key_of_some(id, &self.roster, |edit| edit.plants(Some(population)))?;
+        let counts = |edit: &CompiledEdit| edit.plants(Some(population)) || edit.places(population);
+        let key = self.life.key_of_some(id, &self.roster, counts)?;
         Some(Self::with_masks(key, self.masked.life, || self.mask_key_near(id)))
+    }
+
+    /// The key of the edits that touch a disc, given by its middle and chord, and change the share of a population;
+    /// without a population, of those that change all. None if none does.
+    pub(crate) fn life_key_in(&self, disc: (DVec3, f64), population: Option<PopulationId>) -> Option<Key> {
+        let key = self.life.key_in(disc, &self.roster, |edit| edit.plants(population))?;
+        Some(Self::with_masks(key, self.masked.life, || self.mask_key()))
+    }
+
+    /// The objects of a population that are placed by hand in a node. `is_first`: whether it is the first one.
+    pub(crate) fn placed(&self, id: NodeId, (population, is_first): (PopulationId, bool)) -> Vec<Placed> {
+        let mut placed = Vec::new();
+        for number in self.life.pieces_of_some(id, &self.roster, |edit| edit.places(population)) {
+            let (Some(edit), Some(piece)) = (self.roster.edit(slot_of(number)), self.roster.piece(number)) else {
+                continue;
+            };
+            let Some(Paint::Object { population: of, size, turns_rad }) = edit.paint().copied() else { continue };
+            let arcs = edit.arcs().get(piece.first as usize..(piece.first + piece.count) as usize).unwrap_or_default();
+            let inside: Vec<&Arc> = arcs.iter().filter(|arc| NodeId::containing(arc.a, id.level) == id).collect();
+            let shares = self.shares(edit, inside.iter().map(|arc| arc.a), &[]);
+            let stands = |(own, _): &(usize, &&Arc)| (of.is_some() || is_first) && shares.of(*own) >= 0.5;
+            placed.extend(inside.iter().enumerate().filter(stands).map(|(_, arc)| Placed::new(arc, size, turns_rad)));
+        }
+        placed
     }
 
     /// The strokes of life: the population of each, None for all, and the density that it leads to.

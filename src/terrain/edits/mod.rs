@@ -60,7 +60,7 @@ use compiled::CompiledEdit;
 use glam::DVec3;
 pub(crate) use index::chord_of;
 use index::{Index, Piece};
-pub(crate) use life::{Planting, PopulationId};
+pub(crate) use life::{Placed, Planting, PopulationId};
 pub(crate) use mask::MaskId;
 pub(crate) use memory::Memory;
 pub(crate) use near::Near;
@@ -121,7 +121,7 @@ impl Masked {
                 None => masked.ground = true,
                 Some(Paint::Clouds { .. }) => masked.clouds = true,
                 Some(Paint::Structure(_)) => masked.structure = true,
-                Some(Paint::Life { .. }) => {}
+                Some(Paint::Life { .. } | Paint::Object { .. }) => {}
                 Some(_) => masked.climate = true,
             }
             masked.life |= edit.is_life();

@@ -95,6 +95,13 @@ pub(super) enum Paint {
         population: Option<PopulationId>,
         density: f64,
     },
+    /// Objects of a population, or of the first: factor on their height, clockwise turn, and the most that copies are
+    /// turned besides.
+    Object {
+        population: Option<PopulationId>,
+        size: f64,
+        turns_rad: [f64; 2],
+    },
     Structure(StructurePaint),
     /// The course of a river of the structure.
     Course,
@@ -127,7 +134,8 @@ impl Paint {
                     painted.temperature.set(temperature_c, weight * strength);
                 }
             }
-            Self::Clouds { .. } | Self::Mask { .. } | Self::Life { .. } | Self::Structure(_) | Self::Course => {}
+            Self::Clouds { .. } | Self::Mask { .. } | Self::Life { .. } | Self::Object { .. } => {}
+            Self::Structure(_) | Self::Course => {}
         }
     }
 }

@@ -10,7 +10,7 @@ use super::structural::StructurePaint;
 use super::widening::Widening;
 use crate::planet::edits::{
     BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, LifePaint, MaskPaint, Mesa,
-    MoisturePaint, PaintMode, PictureStamp, RainPaint, Raise, Ridge, Road, RockPaint, Roughen, Smooth,
+    MoisturePaint, PaintMode, PictureStamp, PlacedObject, RainPaint, Raise, Ridge, Road, RockPaint, Roughen, Smooth,
     TemperaturePaint, Terrace, Thermal, UpliftPaint, Volcano, Wall,
 };
 use crate::planet::picture::PictureExtent;
@@ -237,6 +237,11 @@ impl CompiledTool {
                 let population = (!population.is_empty()).then(|| PopulationId::of(population));
                 Self::Paint(Paint::Life { population, density })
             }
+            Tool::Object(PlacedObject { ref population, size, turn_deg, random_turn_deg }) => {
+                let population = (!population.is_empty()).then(|| PopulationId::of(population));
+                let turns_rad = [turn_deg, random_turn_deg].map(f64::to_radians);
+                Self::Paint(Paint::Object { population, size, turns_rad })
+            }
             Tool::Clouds(CloudPaint { amount }) => Self::Paint(Paint::Clouds { odds: CLOUD_ODDS * amount }),
         }
     }
@@ -284,6 +289,10 @@ impl CompiledTool {
             Self::Paint(Paint::Life { population, density }) => {
                 population.iter().flat_map(|population| population.words()).for_each(|word| hash.add(word));
                 (29, [density, 0.0, 0.0, 0.0])
+            }
+            Self::Paint(Paint::Object { population, size, turns_rad: [turn_rad, random_rad] }) => {
+                population.iter().flat_map(|population| population.words()).for_each(|word| hash.add(word));
+                (30, [size, turn_rad, random_rad, 0.0])
             }
         };
         hash.add(kind);
