@@ -6,6 +6,7 @@
 #include "stands.wgsl"
 #include "crowns.wgsl"
 #include "life_material.wgsl"
+#include "planting.wgsl"
 
 // A population at a pixel.
 struct CanopyLayer {
@@ -72,10 +73,12 @@ fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
     if on_land <= 0.0 { return 0.0; }
     let ground = biome_param(id, row + 2);
     let climate = biome_param(id, row + 3);
-    return on_land * between(place.slope_deg, ground.x, ground.y, SOFT_DEG)
+    let by_rule = between(place.slope_deg, ground.x, ground.y, SOFT_DEG)
         * between(place.moisture, ground.z, ground.w, SOFT_MOISTURE)
         * between(place.above_m, climate.x, climate.y, SOFT_M)
         * between(place.temperature_c, climate.z, climate.w, SOFT_C);
+    let by_hand = planting_at(u32(biome_param(id, row + 8).w), place.rel_m, place.footprint_m);
+    return on_land * (by_hand.x * by_rule + by_hand.y);
 }
 
 // Strength of stands in the density of objects that stand in groups.

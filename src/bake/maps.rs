@@ -297,12 +297,13 @@ impl Map {
             Map::Moisture => [sample.moisture, 0.0, 0.0],
             Map::Rain => [sample.rain_mm, 0.0, 0.0],
             Map::Biome => [sample.biome as f64, 0.0, 0.0],
-            Map::Albedo => biome()
-                .map_or([0.0; 3], |biome| canopies.albedo(sample, through_water(planet, sample, mean_color(biome)))),
+            Map::Albedo => biome().map_or([0.0; 3], |biome| {
+                canopies.albedo(*dir, sample, through_water(planet, sample, mean_color(biome)))
+            }),
             Map::Roughness => [biome().map_or(1.0, |biome| biome.roughness), 0.0, 0.0],
             Map::AmbientOcclusion => [*open, 0.0, 0.0],
-            Map::Canopy => [canopies.at(sample).cover, 0.0, 0.0],
-            Map::CanopyHeight => [canopies.at(sample).height_m, 0.0, 0.0],
+            Map::Canopy => [canopies.at(*dir, sample).cover, 0.0, 0.0],
+            Map::CanopyHeight => [canopies.at(*dir, sample).height_m, 0.0, 0.0],
             Map::NightLights => *lights,
             Map::WaterDepth => [depth_m(sample), 0.0, 0.0],
             Map::Discharge => [sample.river.map_or(0.0, |river| river.discharge_m3_s), 0.0, 0.0],

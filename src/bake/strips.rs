@@ -263,7 +263,7 @@ impl<'a> Evaluator<'a> {
             time_secs: bake.time_secs,
             detail: bake.detail,
             lights: bake.maps.contains(&Map::NightLights).then(|| Lights::new(planet)).flatten(),
-            canopies: if shows_life { Canopies::new(planet) } else { Canopies::default() },
+            canopies: if shows_life { Canopies::new(&bake.terrain) } else { Canopies::default() },
         }
     }
 

@@ -96,7 +96,7 @@ pub(super) struct Moment {
 
 impl Moment {
     fn new(terrain: &Terrain, time_secs: f64) -> Self {
-        let canopies = Canopies::new(terrain.planet());
+        let canopies = Canopies::new(terrain);
         Self { time_secs, canopies, clouds: terrain.planet().clouds.as_ref().map(|_| CloudField::new(terrain)) }
     }
 
@@ -105,8 +105,8 @@ impl Moment {
     }
 
     /// Objects on a hectare, for each population that stands there.
-    fn populations<'a>(&self, terrain: &'a Terrain, sample: &Sample) -> Vec<(&'a str, f64)> {
-        let densities = self.canopies.densities_per_hectare(sample);
+    fn populations<'a>(&self, terrain: &'a Terrain, dir: DVec3, sample: &Sample) -> Vec<(&'a str, f64)> {
+        let densities = self.canopies.densities_per_hectare(dir, sample);
         let named = terrain.planet().life.iter().map(|population| population.name.as_str()).zip(densities);
         named.filter(|(_, per_hectare)| *per_hectare > 0.0).collect()
     }
@@ -132,8 +132,8 @@ pub(super) fn everything(terrain: &Terrain, dir: DVec3, time_secs: f64) -> Value
 /// All that is known of a point.
 pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], moment: &Moment) -> Value {
     let clouds = moment.cover(dir);
-    let canopy = moment.canopies.at(sample);
-    let populations = moment.populations(terrain, sample).into_iter();
+    let canopy = moment.canopies.at(dir, sample);
+    let populations = moment.populations(terrain, dir, sample).into_iter();
     let sea = moment.sea(terrain, dir, sample);
     let river = sample.river.map(|river| {
         json!({
@@ -202,9 +202,9 @@ fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], mom
         format!("moisture     {:.3} ({:.0} mm a year)", sample.moisture, sample.precipitation_mm),
         format!("biome        {}", biome_name(terrain, sample)),
     ];
-    let populations = moment.populations(terrain, sample);
+    let populations = moment.populations(terrain, dir, sample);
     if !populations.is_empty() {
-        let Canopy { cover, height_m, .. } = moment.canopies.at(sample);
+        let Canopy { cover, height_m, .. } = moment.canopies.at(dir, sample);
         let number = |n: f64| if n < 10.0 { format!("{n:.2}") } else { format!("{n:.0}") };
         let named = populations.iter().map(|(name, per_hectare)| format!("{name} {}", number(*per_hectare)));
         let named = named.collect::<Vec<_>>().join(", ");

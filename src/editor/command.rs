@@ -204,6 +204,8 @@ pub enum SculptAction {
         /// Its mask.
         mask: usize,
     },
+    /// Take the life tool, for the population of this index.
+    PaintLife(usize),
     /// Select the edit of this index.
     Select(usize),
     /// Put the tool down, or take it again.

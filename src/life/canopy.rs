@@ -5,8 +5,11 @@ use super::grid::HECTARE_M2;
 use super::model::seed;
 use super::suitability::Suitability;
 use crate::planet::{Form, Planet, Population};
-use crate::terrain::Sample;
+use crate::terrain::edits::{Edits, Planting, PopulationId};
+use crate::terrain::{Sample, Terrain};
+use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// The cover of a population's form: that of its first variant, since variants differ little.
 pub(crate) fn cover(population: &Population) -> Cover {
@@ -104,68 +107,83 @@ pub struct Canopies {
     populations: usize,
     /// Populations that are on, the lowest first.
     layers: Vec<Layer>,
+    /// Edits that clear the ground and plant it.
+    edits: Option<Arc<Edits>>,
 }
 
 /// A population of a planet.
 #[derive(Clone, Debug)]
 struct Layer {
     population: usize,
+    id: PopulationId,
     suitability: Suitability,
     covers: CanopyLayer,
 }
 
 impl Canopies {
-    /// Measures the forms of a planet, which takes some milliseconds for each population.
-    pub fn new(planet: &Planet) -> Self {
+    /// Measures the forms of a terrain's planet, which takes some milliseconds for each population.
+    pub fn new(terrain: &Terrain) -> Self {
+        let planet: &Planet = terrain.planet();
         let on: Vec<_> = planet.life.iter().enumerate().filter(|(_, population)| population.enabled).collect();
         let layer = |&(index, population): &(usize, &Population)| Layer {
             population: index,
+            id: PopulationId::of(&population.name),
             suitability: Suitability::new(planet, population),
             covers: CanopyLayer::new(population, &cover(population)),
         };
         let mut layers: Vec<Layer> = on.par_iter().map(layer).collect();
         layers.sort_by(|a, b| a.covers.height_m.total_cmp(&b.covers.height_m));
-        Self { populations: planet.life.len(), layers }
+        Self { populations: planet.life.len(), layers, edits: terrain.life_edits().cloned() }
     }
 
-    /// Objects on a hectare at a sample, for each population of the planet: the mean over its groups.
-    pub fn densities_per_hectare(&self, sample: &Sample) -> Vec<f64> {
-        let mut densities = vec![0.0; self.populations];
-        for Layer { population, suitability, .. } in &self.layers {
-            densities[*population] = suitability.at(sample) * suitability.population.per_hectare;
+    /// Share of its greatest density that a population has at a direction, whose sample is given.
+    fn share(&self, layer: &Layer, dir: DVec3, sample: &Sample) -> f64 {
+        let Some(edits) = &self.edits else { return layer.suitability.at(sample) };
+        let mut planted = Vec::new();
+        edits.planted(Some(layer.id), &[dir], &mut planted);
+        layer.suitability.planted(sample, planted.first().copied().unwrap_or(Planting::NONE))
+    }
+
+    /// Objects on a hectare at a direction, whose sample is given, for each population of the planet: the mean over its
+    /// groups.
+    pub fn densities_per_hectare(&self, dir_planet: DVec3, sample: &Sample) -> Vec<f64> {
+        let (dir, mut densities) = (dir_planet.normalize_or(DVec3::Z), vec![0.0; self.populations]);
+        for layer in &self.layers {
+            densities[layer.population] = self.share(layer, dir, sample) * layer.suitability.population.per_hectare;
         }
         densities
     }
 
-    /// What each population covers at a sample, the lowest first.
-    fn covered<'a>(&'a self, sample: &'a Sample) -> impl Iterator<Item = (f64, &'a CanopyLayer)> {
-        self.layers.iter().map(|layer| (layer.covers.covered(layer.suitability.at(sample)), &layer.covers))
+    /// What each population covers at a direction, whose sample is given, the lowest first.
+    fn covered<'a>(&'a self, dir_planet: DVec3, sample: &'a Sample) -> impl Iterator<Item = (f64, &'a CanopyLayer)> {
+        let dir = dir_planet.normalize_or(DVec3::Z);
+        self.layers.iter().map(move |layer| (layer.covers.covered(self.share(layer, dir, sample)), &layer.covers))
     }
 
     /// Mean colour (albedo, linear sRGB) of what is seen of a place from far above, with ground of a colour: higher
-    /// objects hide lower ones.
-    pub fn albedo(&self, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
-        self.covered(sample).fold(self.littered(sample, ground), |below, (cover, layer)| {
+    /// objects hide lower ones. `sample`: that of the direction.
+    pub fn albedo(&self, dir_planet: DVec3, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
+        self.covered(dir_planet, sample).fold(self.littered(dir_planet, sample, ground), |below, (cover, layer)| {
             std::array::from_fn(|c| below[c] + (layer.color[c] - below[c]) * cover)
         })
     }
 
     /// Colour of the ground at a sample with what has fallen on it.
-    fn littered(&self, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
-        let (mut bare, mut sum, mut color) = (1.0, 0.0, [0.0; 3]);
-        for Layer { suitability, covers, .. } in self.layers.iter().filter(|layer| layer.covers.litter.1 > 0.0) {
-            let share = covers.littered(suitability.at(sample));
+    fn littered(&self, dir_planet: DVec3, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
+        let (dir, mut bare, mut sum, mut color) = (dir_planet.normalize_or(DVec3::Z), 1.0, 0.0, [0.0; 3]);
+        for layer in self.layers.iter().filter(|layer| layer.covers.litter.1 > 0.0) {
+            let share = layer.covers.littered(self.share(layer, dir, sample));
             bare *= 1.0 - share;
             sum += share;
-            color = std::array::from_fn(|c| color[c] + share * covers.litter.0[c]);
+            color = std::array::from_fn(|c| color[c] + share * layer.covers.litter.0[c]);
         }
         if sum <= 0.0 { ground } else { std::array::from_fn(|c| bare * ground[c] + (1.0 - bare) * color[c] / sum) }
     }
 
-    /// What stands at a sample.
-    pub fn at(&self, sample: &Sample) -> Canopy {
+    /// What stands at a direction, whose sample is given.
+    pub fn at(&self, dir_planet: DVec3, sample: &Sample) -> Canopy {
         let (mut open, mut covered, mut height_m) = (1.0, 0.0, 0.0);
-        for (cover, layer) in self.covered(sample) {
+        for (cover, layer) in self.covered(dir_planet, sample) {
             open *= 1.0 - cover;
             covered += cover;
             height_m += cover * layer.height_m;

@@ -67,6 +67,15 @@ impl Grid {
         })
     }
 
+    /// The candidate of an object that is placed by hand. It stands whatever the ground offers.
+    pub(super) fn placed(&self, cell: NodeId, dir: DVec3) -> Candidate {
+        let dice = Dice::of_place(self.seed, dir);
+        let (_, s, t) = cube::face_point(dir);
+        let side = f64::from(1_u32 << cell.level);
+        let within = |w: f64, corner: u32| ((w + 1.0) * 0.5 * side - f64::from(corner)).clamp(0.0, 1.0);
+        Candidate { id: dice.id(), dir, place: [within(s, cell.x), within(t, cell.y)], rank: 0.0, dice }
+    }
+
     /// Candidates along a side of a cell, and the share of them that stands where everything suits them.
     fn count_of(&self, cell: NodeId) -> (u32, f64) {
         let wanted = self.most_per_m2 * self.area_m2(cell);

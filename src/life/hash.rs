@@ -2,6 +2,7 @@
 
 use crate::planet::random::dice::{GOLDEN_BITS, mix_bits};
 use crate::sphere::NodeId;
+use glam::DVec3;
 
 /// A sequence of random numbers.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +14,12 @@ impl Dice {
         let node =
             (u64::from(cell.x) << 32 | u64::from(cell.y)) ^ (cell.face as u64) << 61 ^ u64::from(cell.level) << 56;
         Self(mix_bits(mix_bits(seed ^ mix_bits(node)) ^ u64::from(lane)))
+    }
+
+    /// The sequence of an object that is placed by hand, by its direction.
+    pub(super) fn of_place(seed: u64, dir: DVec3) -> Self {
+        let words = dir.to_array().map(f64::to_bits);
+        Self(words.into_iter().fold(mix_bits(!seed), |hash, word| mix_bits(hash ^ word)))
     }
 
     /// The hash itself: the id of the candidate.

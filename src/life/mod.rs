@@ -5,6 +5,7 @@
 //! - `soil`: what the ground of a node offers
 //! - `suitability`: how well a place suits a population
 //! - `placement`: the objects of a cell
+//! - `planting_map`: what edits make of populations, for what is seen from afar
 //! - `canopy`: what populations cover of the ground
 //! - [`query`]: objects of a terrain, for games and exports; `nearest`: the nearest one
 //! - `solid`: what bodies hit of objects, and what moves among them
@@ -22,6 +23,7 @@ mod hash;
 mod model;
 mod nearest;
 mod placement;
+pub(crate) mod planting_map;
 pub mod query;
 pub mod scenery;
 mod soil;

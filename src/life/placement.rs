@@ -4,11 +4,14 @@ use super::grid::{Candidate, Grid};
 use super::query::Instance;
 use super::soil::Soil;
 use super::suitability::Suitability;
-use crate::planet::{Form, Planet, Population};
+use crate::planet::{Form, Key, Planet, Population};
 use crate::sphere::NodeId;
+use crate::terrain::edits::{Edits, Placed, Planting, PopulationId};
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
+use std::collections::HashSet;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// A population of a planet, ready to be placed.
 #[derive(Clone, Debug)]
@@ -16,6 +19,8 @@ pub(super) struct Placement {
     pub(super) grid: Grid,
     /// Index in the planet's list.
     pub(super) index: u16,
+    /// Its name, as edits know it.
+    id: PopulationId,
     suitability: Suitability,
     radius_m: f64,
     seed: u32,
@@ -25,7 +30,8 @@ pub(super) struct Placement {
 /// Memory for placing on one thread.
 #[derive(Default)]
 pub(super) struct PlacementScratch {
-    candidates: Vec<(Candidate, f64)>,
+    candidates: Vec<(Candidate, f64, Planting)>,
+    planted: Vec<Planting>,
     dirs: Vec<DVec3>,
     samples: Vec<Sample>,
     scratch: Scratch,
@@ -48,6 +54,7 @@ impl Placement {
     fn new(planet: &Planet, population: &Population, index: u16) -> Self {
         Self {
             grid: Grid::new(planet, population),
+            id: PopulationId::of(&population.name),
             suitability: Suitability::new(planet, population),
             index,
             radius_m: planet.radius_m(),
@@ -82,22 +89,28 @@ impl Placement {
         soil: Option<&Soil>,
         memory: &mut PlacementScratch,
     ) -> Vec<Instance> {
-        let PlacementScratch { candidates, dirs, samples, scratch } = memory;
-        let offer = soil.map(|soil| soil.offered(&self.suitability));
+        let PlacementScratch { candidates, planted, dirs, samples, scratch } = memory;
+        let offer = soil.and_then(|soil| soil.offered(&self.suitability));
+        let edits = terrain.life_edits().filter(|_| self.edits_key(terrain, cell).is_some());
         // It stands nowhere in the node.
-        let Some(offer) = offer.map_or(Some(None), |offer| offer.map(Some)) else { return Vec::new() };
+        if soil.is_some() && offer.is_none() && edits.is_none() {
+            return Vec::new();
+        }
+        self.find_planted(edits, cell, dirs, planted);
         candidates.clear();
         // The ground is dear: it is asked for last.
-        candidates.extend(self.grid.candidates(cell).filter_map(|candidate| {
-            let offered = offer.as_ref().map_or(1.0, |offer| offer.at(cell, candidate.place));
+        candidates.extend(self.grid.candidates(cell).enumerate().filter_map(|(number, candidate)| {
+            let planting = planted.get(number).copied().unwrap_or(Planting::NONE);
+            let offered = offer.as_ref().map_or(0.0, |offer| offer.at(cell, candidate.place));
+            let offered = if soil.is_some() { planting.of(offered) } else { 1.0 };
             if candidate.rank >= offered {
                 return None;
             }
             let share = offered * self.suitability.clumping(candidate.dir, self.radius_m, self.seed);
-            (candidate.rank < share).then_some((candidate, share))
+            (candidate.rank < share).then_some((candidate, share, planting))
         }));
         dirs.clear();
-        dirs.extend(candidates.iter().map(|(candidate, _)| candidate.dir));
+        dirs.extend(candidates.iter().map(|(candidate, ..)| candidate.dir));
         samples.clear();
         samples.resize(dirs.len(), Sample::default());
         let wanted = match soil {
@@ -105,15 +118,56 @@ impl Placement {
             None => Wanted::ALL,
         };
         terrain.samples_spaced_into(dirs, 0.0, wanted, samples, scratch);
-        let placed = candidates.iter().zip(&*samples).filter_map(|((candidate, share), sample)| {
+        let placed = candidates.iter().zip(&*samples).filter_map(|((candidate, share, planting), sample)| {
             let density = match soil {
                 Some(_) if self.suitability.is_dry(sample) => *share,
                 Some(_) => 0.0,
-                None => share * self.suitability.at(sample),
+                None => share * self.suitability.planted(sample, *planting),
             };
             (candidate.rank < density).then(|| self.instance(candidate, density, sample))
         });
-        placed.collect()
+        let mut placed: Vec<Instance> = placed.collect();
+        if let Some(edits) = edits {
+            placed.extend(self.placed_by_hand(terrain, edits, cell));
+        }
+        placed
+    }
+
+    /// The objects of a cell that are placed by hand.
+    fn placed_by_hand(&self, terrain: &Terrain, edits: &Edits, cell: NodeId) -> Vec<Instance> {
+        let mut seen = HashSet::new();
+        let placed = edits.placed(cell, (self.id, self.index == 0)).into_iter();
+        let placed = placed.map(|placed| (self.grid.placed(cell, placed.dir), placed));
+        // Two at one place are one.
+        let placed = placed.filter(|(candidate, _)| seen.insert(candidate.id));
+        let instance = |(candidate, placed): (Candidate, Placed)| {
+            let sample = terrain.sample(placed.dir);
+            let size_m = self.population().height_m * placed.size;
+            let base_m = sample.height_m - self.population().sunk * size_m;
+            Instance { turn_rad: placed.turn_rad, size_m, base_m, ..self.instance(&candidate, 1.0, &sample) }
+        };
+        placed.map(instance).collect()
+    }
+
+    /// The key of the edits that change where the population stands in a cell. None if none does.
+    pub(super) fn edits_key(&self, terrain: &Terrain, cell: NodeId) -> Option<Key> {
+        terrain.life_edits()?.life_key_near(cell, self.id)
+    }
+
+    /// What edits make of the share at each candidate of a cell; nothing if none is near any.
+    fn find_planted(
+        &self,
+        edits: Option<&Arc<Edits>>,
+        cell: NodeId,
+        dirs: &mut Vec<DVec3>,
+        planted: &mut Vec<Planting>,
+    ) {
+        planted.clear();
+        if let Some(edits) = edits {
+            dirs.clear();
+            dirs.extend(self.grid.candidates(cell).map(|candidate| candidate.dir));
+            edits.planted(Some(self.id), dirs, planted);
+        }
     }
 
     fn instance(&self, candidate: &Candidate, density: f64, sample: &Sample) -> Instance {

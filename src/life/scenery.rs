@@ -5,6 +5,7 @@ use super::form::Cover;
 use super::grid::angle;
 use super::model::Model;
 use super::placement::{Placement, PlacementScratch};
+use super::planting_map::{PlantingMap, PlantingMaps};
 use super::query::Instance;
 use super::soil::{Soil, Soils};
 use crate::lod::{Quality, View};
@@ -54,7 +55,7 @@ pub struct SceneryCell {
     pub bounding_radius_m: f64,
     /// Content key of the population, and of what decides about the ground besides its shape.
     rules: Key,
-    /// Content key of the shape of the ground.
+    /// Content key of the shape of the ground, and of the edits that clear and plant it.
     ground: Key,
 }
 
@@ -71,6 +72,8 @@ pub struct Scenery {
     pub reach_m: Vec<f64>,
     /// For each population of the planet, the cover of its form; None for those that are off.
     pub(crate) covers: Vec<Option<Cover>>,
+    /// What edits make of the populations; None where no edit changes what stands on the ground.
+    pub(crate) planting: Option<Arc<PlantingMap>>,
 }
 
 /// Share of its reach up to which all objects of a population are drawn.
@@ -121,6 +124,7 @@ pub(crate) struct SceneryCache {
     models: HashMap<Key, Arc<Model>>,
     covers: HashMap<Key, Cover>,
     cells: HashMap<(u16, NodeId), Arc<SceneryCell>>,
+    planting: PlantingMaps,
 }
 
 /// Most objects that the cache keeps.
@@ -160,6 +164,7 @@ impl SceneryCache {
             models: vec![None; populations],
             reach_m: vec![0.0; populations],
             covers: vec![None; populations],
+            planting: None,
         };
         let mut is_whole = true;
         if keep_going() {
@@ -182,6 +187,7 @@ impl SceneryCache {
         is_whole &= self.make_lacking(terrain, &needed, keep_going);
         let cells = needed.iter().filter_map(|needed| self.known_by_rules(needed));
         scenery.cells = cells.filter(|cell| !cell.objects.is_empty()).cloned().collect();
+        scenery.planting = self.planting.around(terrain, view.camera.position_planet_m);
         self.trim(&scenery);
         (scenery, is_whole)
     }
@@ -287,7 +293,7 @@ fn needed<'a>(terrain: &Terrain, view: &View, (placements, reaches_m): (&'a [Pla
         }
         let rules = Key::of(&(site, placement.population().placed()));
         for id in placement.grid.cells_within(dir, flat_m) {
-            let ground = Key::of(&terrain.tile_keys_at(id));
+            let ground = Key::of(&(terrain.tile_keys_at(id), placement.edits_key(terrain, id)));
             let away_m = angle(id.direction(0.5, 0.5), dir) * planet_m;
             needed.push(Needed { placement, id, rules, ground, away_m });
         }

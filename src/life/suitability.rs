@@ -1,6 +1,7 @@
 //! How well a place suits a population: the density there as a share of the greatest.
 
 use crate::planet::{Planet, Population};
+use crate::terrain::edits::Planting;
 use crate::terrain::{Sample, noise};
 use glam::DVec3;
 
@@ -40,6 +41,11 @@ impl Suitability {
             * between(above_m, population.height_from_m, population.height_to_m, SOFT_M)
             * between(sample.temperature_c, population.temperature_from_c, population.temperature_to_c, SOFT_C)
             * between(sample.moisture, population.moisture_from, population.moisture_to, SOFT_MOISTURE)
+    }
+
+    /// The same after edits: where it is dry enough, strokes plant also what no rule puts there.
+    pub(super) fn planted(&self, sample: &Sample, planting: Planting) -> f64 {
+        if self.is_dry(sample) { planting.of(self.at(sample)) } else { 0.0 }
     }
 
     /// Whether a place is dry enough: neither in water nor on the shore, unless the population stands in water.

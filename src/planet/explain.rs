@@ -282,7 +282,9 @@ fn in_words(param: &Param, names: &[&str]) -> String {
         Domain::Flag => "`true` or `false`".to_owned(),
         Domain::Letter | Domain::BiomeKey => "a letter in single quotes: `'a'`".to_owned(),
         Domain::BiomeKeys => "keys of biomes in double quotes: `\"fw\"`".to_owned(),
-        Domain::Text { .. } | Domain::MaskName { .. } => "text in double quotes: `\"text\"`".to_owned(),
+        Domain::Text { .. } | Domain::MaskName { .. } | Domain::PopulationName { .. } => {
+            "text in double quotes: `\"text\"`".to_owned()
+        }
         Domain::Curve { .. } => format!("a list of points: `[(-1, 0), (1, 2)]`, {}", param.range_text()),
         Domain::File { .. } => "a path in double quotes: `\"maps/heights.png\"`".to_owned(),
         // A kind carries its own parameters: `Fbm(...)`.

@@ -88,7 +88,12 @@ fn comment(param: &Param, value: ValueRef<'_>) -> String {
         // These have no range worth a comment.
         (
             _,
-            Domain::Text { .. } | Domain::BiomeKeys | Domain::MaskName { .. } | Domain::File { .. } | Domain::Color,
+            Domain::Text { .. }
+            | Domain::BiomeKeys
+            | Domain::MaskName { .. }
+            | Domain::PopulationName { .. }
+            | Domain::File { .. }
+            | Domain::Color,
         ) => String::new(),
         _ => param.range_text(),
     };

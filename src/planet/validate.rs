@@ -80,6 +80,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
     biomes(&planet.biomes, &mut found);
     found.0.extend(planet.life_problems());
     painted_biomes(planet, &mut found);
+    found.0.extend(planet.painted_life_problems());
     courses(planet, &mut found);
     found.0
 }
@@ -293,7 +294,7 @@ fn slope_distances(layers: &[Layer], found: &mut Found) {
 }
 
 /// `"a"`, `"a" or "b"`, `"a", "b" or "c"`; a long list is cut.
-fn one_of(names: &[&str]) -> String {
+pub(super) fn one_of(names: &[&str]) -> String {
     const MOST: usize = 12;
     let shown: Vec<String> = names.iter().take(MOST).map(|name| format!("{name:?}")).collect();
     match shown.as_slice() {

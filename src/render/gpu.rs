@@ -10,6 +10,8 @@ use std::task::{Context, Poll, Waker};
 #[derive(Clone, Copy)]
 pub(crate) enum Slot {
     Uniform,
+    /// A buffer that shaders read.
+    Storage,
     Sampler,
     Comparison,
     Float2d,
@@ -36,6 +38,11 @@ pub(crate) fn layout(device: &wgpu::Device, label: &str, slots: &[Slot]) -> wgpu
             ty: match slot {
                 Slot::Uniform => wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                Slot::Storage => wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage { read_only: true },
                     has_dynamic_offset: false,
                     min_binding_size: None,
                 },

@@ -4,7 +4,7 @@ use super::bloom::Bloom;
 use super::body_tiles::BodyTiles;
 use super::ground_view::GroundView;
 use super::history::{CloudFrame, CloudHistory, Progress, Still};
-use super::life::{CanopyRows, Cascades, LifeModels, LifeView, ShadowMap};
+use super::life::{CanopyRows, Cascades, LifeModels, LifeView, PlantingBuffer, ShadowMap};
 use super::luts::{LutRuns, Luts, Patterns};
 use super::passes::Pipelines;
 use super::prepared::{Plan, PlannedBody, PreparedFrame};
@@ -71,6 +71,7 @@ pub(crate) struct BodyView {
     pub(crate) ground: GroundView,
     pub(crate) life: LifeView,
     pub(crate) shadows: Option<ShadowMap>,
+    planting: PlantingBuffer,
     /// The clouds of the frames before, if they are kept.
     pub(crate) clouds: Option<CloudHistory>,
     /// What the body needs in this frame.
@@ -216,8 +217,12 @@ impl Renderer {
         let device = &self.device;
         let view = self.views.entry(id).or_insert_with(|| {
             let frame = UniformBuffer::new::<uniforms::Frame>(device, "frame");
-            let group =
-                self.shared.group(device, &frame, &UniformBuffer::new::<uniforms::Body>(device, "no body"), None);
+            let group = self.shared.group(
+                device,
+                &frame,
+                &UniformBuffer::new::<uniforms::Body>(device, "no body"),
+                (None, None),
+            );
             ViewResources {
                 frame,
                 group,
@@ -279,9 +284,10 @@ impl Renderer {
                 self.bodies.entry(body.id).or_insert_with(|| BodyResources::new(device, queue, &self.patterns));
             let body_view = view.bodies.entry(body.id).or_insert_with(|| {
                 let uniforms = UniformBuffer::new::<uniforms::Body>(device, "body");
-                let group = shared.group(device, &view.frame, &uniforms, None);
+                let group = shared.group(device, &view.frame, &uniforms, (None, None));
                 let (ground, life) = (GroundView::new(device), LifeView::default());
-                BodyView { uniforms, group, ground, life, shadows: None, clouds: None, variant: Variant::FIRST }
+                let (planting, variant) = (PlantingBuffer::new(device), Variant::FIRST);
+                BodyView { uniforms, group, ground, life, shadows: None, planting, clouds: None, variant }
             });
             let mut values = uniforms::body(scene, body, drawn, number == 0);
             let terrain = &*body.surface.terrain;
@@ -299,12 +305,17 @@ impl Renderer {
             };
             planned.work.carries_clouds = CloudHistory::prepare(&mut body_view.clouds, device, &clouds, &mut values);
             let cascades = Cascades::new(scene, body);
+            let mut is_other = body_view.planting.show(device, body, &mut values);
             if let Some(cascades) = &cascades {
                 cascades.write(&mut values);
                 if body_view.shadows.as_ref().is_none_or(|map| map.side_px != cascades.side_px) {
-                    let map = body_view.shadows.insert(ShadowMap::new(device, cascades.side_px));
-                    body_view.group = shared.group(device, &view.frame, &body_view.uniforms, Some(map));
+                    body_view.shadows = Some(ShadowMap::new(device, cascades.side_px));
+                    is_other = true;
                 }
+            }
+            if is_other {
+                let rest = (body_view.shadows.as_ref(), Some(&body_view.planting));
+                body_view.group = shared.group(device, &view.frame, &body_view.uniforms, rest);
             }
             let body_written = body_view.uniforms.write(queue, &values);
             resources.luts.runs.uniforms += u64::from(frame_written || body_written);
@@ -407,7 +418,7 @@ impl Renderer {
 
     /// Group 0 of a frame and a body.
     pub(crate) fn uniform_group(&self, frame: &UniformBuffer, body: &UniformBuffer) -> wgpu::BindGroup {
-        self.shared.group(&self.device, frame, body, None)
+        self.shared.group(&self.device, frame, body, (None, None))
     }
 
     fn reload_shaders(&mut self) {

@@ -224,8 +224,8 @@ impl UniformBuffer {
 
 /// Layout of group 0: frame, body, the two samplers, and the shadows of objects with their sampler.
 pub(crate) fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    use gpu::Slot::{Comparison, DepthArray, Sampler, Uniform};
-    gpu::layout(device, "uniforms", &[Uniform, Uniform, Sampler, Sampler, DepthArray, Comparison])
+    use gpu::Slot::{Comparison, DepthArray, Sampler, Storage, Uniform};
+    gpu::layout(device, "uniforms", &[Uniform, Uniform, Sampler, Sampler, DepthArray, Comparison, Storage])
 }
 
 #[cfg(test)]

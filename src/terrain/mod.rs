@@ -298,6 +298,11 @@ impl Terrain {
         painted
     }
 
+    /// The edits that change what stands on the ground. None if none does.
+    pub(crate) fn life_edits(&self) -> Option<&Arc<Edits>> {
+        self.edits.as_ref().filter(|edits| edits.plants())
+    }
+
     /// Whether edits of the ground reach each of some points.
     #[cfg(feature = "bake")]
     pub(crate) fn edited(&self, dirs: &[DVec3]) -> Vec<bool> {

@@ -98,6 +98,8 @@ pub struct Keys {
     optical_depth: Key,
     air_tables: Key,
     life: Key,
+    /// Of edits of what stands on the ground; None if there are none, or nothing stands there.
+    life_edits: Option<Key>,
 }
 
 impl Keys {
@@ -141,7 +143,7 @@ impl Keys {
             (Stage::Height, self.heights != before.heights),
             (Stage::ClimateNoise, self.climate_noise != before.climate_noise),
             (Stage::Climate, self.heights != before.heights || self.climate != before.climate),
-            (Stage::Life, self.life != before.life),
+            (Stage::Life, (self.life, self.life_edits) != (before.life, before.life_edits)),
             (Stage::Material, self.materials != before.materials),
             (Stage::CloudMap, (self.cloud_map, self.cloud_paint) != (before.cloud_map, before.cloud_paint)),
             (Stage::OpticalDepth, self.optical_depth != before.optical_depth),
@@ -265,6 +267,7 @@ impl Compiled {
             optical_depth,
             air_tables,
             life,
+            life_edits: edits.as_ref().filter(|_| !planet.life.is_empty()).and_then(|edits| edits.life_key()),
         };
         Self { stack, under: under.map(Arc::new), edits, climate, relief, map_inputs, content, keys }
     }

@@ -193,8 +193,10 @@ impl Worker {
                 work.stats = surface.stats;
                 // Show the tiles before spending time on their detail.
                 if !surface.complete || is_first || surface.stats.tiles_built > tiles_before {
-                    // Objects on ground that did not change.
-                    surface.scenery = self.scenery.find(&terrain, view, &|| false).0;
+                    // Objects on ground that did not change. After an edit that changes no tile, the new ones: a hand
+                    // that paints them sees them while it moves.
+                    let paints = !is_compiled && surface.complete && surface.stats.tiles_built == 0;
+                    surface.scenery = self.scenery.find(&terrain, view, &|| paints && keep_going()).0;
                     work.complete = surface.complete.then(|| (surface.clone(), None));
                     self.views[index] = work;
                     return (surface, false);

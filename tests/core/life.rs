@@ -134,7 +134,7 @@ fn the_list_of_a_place_is_pinned() {
 #[test]
 fn canopies_have_the_densities_of_objects_and_none_in_the_sea() {
     let terrain = terrain(vec![trees(), Population { enabled: false, ..trees() }]);
-    let canopies = Canopies::new(terrain.planet());
+    let canopies = Canopies::new(&terrain);
     let middle = LatLon::from_degrees(20.0, 30.0).direction();
     let (east, north) = middle.any_orthonormal_pair();
     let radius_m = 1500.0;
@@ -143,14 +143,15 @@ fn canopies_have_the_densities_of_objects_and_none_in_the_sea() {
     let inside: Vec<_> = spots.filter(|[x, y]| x.hypot(*y) < 1.0).collect();
     let (mut density, mut in_sea) = (0.0, 0);
     for [x, y] in &inside {
-        let sample = terrain.sample((middle + (east * *x + north * *y) * (radius_m / 600_000.0)).normalize());
-        let (densities, canopy) = (canopies.densities_per_hectare(&sample), canopies.at(&sample));
+        let dir = (middle + (east * *x + north * *y) * (radius_m / 600_000.0)).normalize();
+        let sample = terrain.sample(dir);
+        let (densities, canopy) = (canopies.densities_per_hectare(dir, &sample), canopies.at(dir, &sample));
         assert_eq!(densities[1], 0.0);
         assert!((0.0..1.0).contains(&canopy.cover) && (canopy.cover > 0.0) == (densities[0] > 0.0));
         if sample.height_m < 0.5 {
             in_sea += 1;
             assert_eq!(canopy, Canopy::default());
-            assert_eq!(canopies.albedo(&sample, [0.5, 0.4, 0.3]), [0.5, 0.4, 0.3]);
+            assert_eq!(canopies.albedo(dir, &sample, [0.5, 0.4, 0.3]), [0.5, 0.4, 0.3]);
         } else {
             assert!((5.0..15.0).contains(&canopy.height_m) || canopy.cover == 0.0, "{canopy:?}");
         }
@@ -167,14 +168,16 @@ fn what_falls_from_trees_colours_the_ground_between_them() {
     let colours = |litter: f64| {
         let wood = Population { litter, color: [0.2, 0.15, 0.1], leaf_color: [0.2, 0.15, 0.1], ..trees() };
         let terrain = terrain(vec![wood]);
-        let canopies = Canopies::new(terrain.planet());
+        let canopies = Canopies::new(&terrain);
         let middle = LatLon::from_degrees(20.0, 30.0).direction();
         let (east, _) = middle.any_orthonormal_pair();
-        let samples = (0..400).map(|i| terrain.sample((middle + east * (f64::from(i) * 1e-5)).normalize()));
-        let on_land: Vec<_> = samples.filter(|sample| canopies.at(sample).cover > 0.2).collect();
+        let dirs = (0..400).map(|i| (middle + east * (f64::from(i) * 1e-5)).normalize());
+        let all = dirs.map(|dir| {
+            (canopies.at(dir, &terrain.sample(dir)).cover, canopies.albedo(dir, &terrain.sample(dir), [1.0; 3]))
+        });
+        let on_land: Vec<_> = all.filter(|(cover, _)| *cover > 0.2).collect();
         assert!(on_land.len() > 100, "{}", on_land.len());
-        let white = |sample| canopies.albedo(sample, [1.0; 3]);
-        on_land.iter().map(|sample| (canopies.at(sample).cover, white(sample))).collect::<Vec<_>>()
+        on_land
     };
     for ((cover, bare), (_, littered)) in colours(0.0).into_iter().zip(colours(0.8)) {
         let floor = |seen: [f64; 3]| std::array::from_fn(|c| (seen[c] - cover * [0.2, 0.15, 0.1][c]) / (1.0 - cover));

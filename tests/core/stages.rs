@@ -27,6 +27,9 @@ fn is_right(planet: &Planet, path: &ParamPath, declared: Stages, changed: Stages
         let may_stay = *name == "name" || (*name == "mask" && planet.edits.get(*index).unwrap().is_scattered());
         return may_stay || !changed.is_empty();
     }
+    // Beds of roads are as wide as their radius says, and limits of edits begin at the sea.
+    let moves_beds = has_structure && ["radius_km", "water.level_m"].contains(&&*name);
+    let changed = if moves_beds { changed.without(Stages::of(&[Stage::Life])) } else { changed };
     // Slope masks alone need noise; a layer that is off, and relief, may need other noise.
     if name.ends_with("masks[0]") || name.ends_with(".enabled") || name.ends_with(".relief_m") {
         return changed.without(Stages::of(&[Stage::Field])) == declared.without(Stages::of(&[Stage::Field]));

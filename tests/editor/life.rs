@@ -1,9 +1,12 @@
-//! The life tab: populations are added, changed, moved and removed, each in one undo step.
+//! The life tab: populations are added, changed, moved and removed, each in one undo step, and painted by hand.
 
 use crate::app::{self, Editor, click, planet, send, undo_label};
+use crate::sculpt;
+use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use tellus::editor::command::Command;
-use tellus::planet::Planet;
+use tellus::planet::edits::{LifePaint, Tool};
+use tellus::planet::{Planet, Population};
 
 fn open() -> Editor {
     let mut harness = app::open_planet([1280.0, 900.0], Planet { life: Vec::new(), ..two_biomes() });
@@ -61,4 +64,58 @@ fn biomes_of_a_population_are_clicked() {
     assert_eq!(planet(&harness).life[0].biomes, "z");
     click(&mut harness, "Biomes of Conifer: Marsh");
     assert_eq!(planet(&harness).life[0].biomes, "");
+}
+
+#[test]
+fn the_button_of_a_population_takes_the_life_tool_for_it_and_another_is_chosen_by_name() {
+    let mut harness = open();
+    add(&mut harness, "Conifer");
+    add(&mut harness, "Birch");
+    click(&mut harness, "Paint Birch");
+    let painted = |harness: &Editor| {
+        let brush = harness.state().viewport().tab.sculpt.brush.clone().unwrap();
+        brush.painted_population().map(str::to_owned)
+    };
+    assert_eq!(painted(&harness).as_deref(), Some("Birch"));
+    for (name, wanted) in [("Conifer", Some("Conifer")), ("All populations", None)] {
+        click(&mut harness, "Population of brush");
+        harness.get_by_label(name).click();
+        harness.run_steps(5);
+        assert_eq!(painted(&harness).as_deref(), wanted);
+    }
+}
+
+#[test]
+fn a_drag_plants_a_population_and_with_shift_clears_it_and_strokes_follow_its_name() {
+    let population = |name: &str, seed| Population { name: name.to_owned(), seed, ..Population::default() };
+    let life = vec![population("Oak", 1), population("Fern", 2)];
+    let mut harness = app::open_planet_with_picture([1024.0, 640.0], Planet { life, ..sculpt::small() });
+    app::wait_for_picture(&mut harness);
+    click(&mut harness, "Life");
+    click(&mut harness, "Paint Oak");
+    let middle = app::canvas(&harness).center();
+    for modifiers in [egui::Modifiers::NONE, egui::Modifiers::SHIFT] {
+        sculpt::stroke(&mut harness, middle, middle + egui::vec2(50.0, 30.0), modifiers);
+        assert_eq!(undo_label(&harness), "Life");
+    }
+    let painted = |harness: &Editor| -> Vec<LifePaint> {
+        let planet = planet(harness);
+        let paint = planet.edits.iter().filter_map(|edit| match &edit.tool {
+            Tool::Life(paint) => Some(paint.clone()),
+            _ => None,
+        });
+        paint.collect()
+    };
+    let of = |name: &str, density| LifePaint { population: name.to_owned(), density };
+    assert_eq!(painted(&harness), [of("Oak", 1.0), of("Oak", 0.0)]);
+    send(&mut harness, Command::Undo);
+    assert_eq!(painted(&harness), [of("Oak", 1.0)]);
+    send(&mut harness, Command::Redo);
+    assert_eq!(painted(&harness), [of("Oak", 1.0), of("Oak", 0.0)]);
+
+    click(&mut harness, "Life");
+    click(&mut harness, "Remove population");
+    assert_eq!((names(&harness), painted(&harness)), (vec!["Fern".to_owned()], Vec::new()));
+    send(&mut harness, Command::Undo);
+    assert_eq!(painted(&harness), [of("Oak", 1.0), of("Oak", 0.0)]);
 }

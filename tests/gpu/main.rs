@@ -8,7 +8,7 @@
 //! - `cloud_edges`: clouds near the horizon: stairs and stripes
 //! - `cloud_light`: light under clouds: rain, fog, night
 //! - `lakes`: water of planets with a structure
-//! - `life`: objects on the ground and their shadows
+//! - `life`: objects on the ground and their shadows; `planting`: what strokes clear and plant of them, from afar
 //! - `neighbours`: shadows and light between bodies, rings
 //! - `night`: airglow, aurora, lights of settlements
 //! - `history`: clouds carried over while the camera moves, and still pictures that converge
@@ -38,6 +38,7 @@ mod neighbours;
 mod night;
 mod photo;
 mod planets;
+mod planting;
 mod render;
 mod ring_pieces;
 mod scene;

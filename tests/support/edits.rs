@@ -190,6 +190,9 @@ pub fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
         }
         // A mask's layer: another one. A layer that masks refer to keeps its name.
         (Value::Text(_), _) if param.name == "layer" => Value::Text(planet.layers[2].name.clone()),
+        (Value::Text(_), _) if param.name == "population" => {
+            Value::Text(planet.life.last().map(|population| population.name.clone()).unwrap_or_default())
+        }
         (Value::Text(text), _) => Value::Text(format!("{text}!")),
         (value, _) => value,
     }

@@ -259,7 +259,7 @@ impl MeshBake {
         let side = u64::from(self.cells) + 1;
         let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
         let progress = Progress::new(squares.len() as u64 * (side * side + texels), go_on);
-        let canopies = Canopies::new(planet);
+        let canopies = Canopies::new(terrain);
         let surface = Surface { terrain, water: self.water, detail: self.detail, canopies: &canopies };
         let mut pieces = Vec::with_capacity(squares.len());
         for square in &squares {

@@ -97,7 +97,7 @@ impl Surface<'_> {
     fn point(&self, dir_planet: DVec3, sample: &Sample, slope: DVec3) -> Point {
         let planet = self.terrain.planet();
         let biome = planet.biomes.palette.get(sample.biome);
-        let ground = self.canopies.albedo(sample, biome.map_or([0.5; 3], mean_color));
+        let ground = self.canopies.albedo(dir_planet, sample, biome.map_or([0.5; 3], mean_color));
         let mut point = Point {
             dir_planet,
             height_m: sample.height_m,

@@ -118,7 +118,7 @@ impl Tileset {
         }
         let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
         let side = u64::from(self.cells) + 1;
-        let canopies = Canopies::new(planet);
+        let canopies = Canopies::new(terrain);
         let progress = Progress::new(missing.len() as u64 * (side * side + texels), go_on);
         progress.each(&missing, |node, _| {
             let path = folder.join(uri(*node));

@@ -32,8 +32,8 @@ pub(super) fn measure(planet: &Arc<Planet>) -> Result<Value, String> {
             black_box(Model::new(population));
         }
     }));
-    let mut canopies = Canopies::new(planet);
-    let covers_ms = median(&repeat(|| canopies = Canopies::new(planet)));
+    let mut canopies = Canopies::new(&terrain);
+    let covers_ms = median(&repeat(|| canopies = Canopies::new(&terrain)));
     let dir = most_covered(&terrain, &canopies);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(|error| error.to_string())?;
     let begun = Instant::now();
@@ -54,7 +54,7 @@ pub(super) fn measure(planet: &Arc<Planet>) -> Result<Value, String> {
 
 /// The direction, of many, where objects cover most of the ground.
 fn most_covered(terrain: &Terrain, canopies: &Canopies) -> DVec3 {
-    let covers = spread(PLACES).map(|dir| (canopies.at(&terrain.sample(dir)).cover, dir));
+    let covers = spread(PLACES).map(|dir| (canopies.at(dir, &terrain.sample(dir)).cover, dir));
     covers.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(DVec3::Z, |(_, dir)| dir)
 }
 

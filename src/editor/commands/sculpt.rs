@@ -34,6 +34,8 @@ const TOOLS: [(&str, &str); Tool::NAMES.len()] = [
     ("Sculpt: rock hardness", "Paint how hard the rock is that the structure's rivers carve."),
     ("Sculpt: rain", "Paint rain of the structure's weather: rivers and biomes answer."),
     ("Sculpt: river", "Draw the course of a river, from its spring to its mouth."),
+    ("Sculpt: life", "Plant what stands on the ground with drags; with Shift clear it."),
+    ("Sculpt: object", "Place single trees, stones and other objects."),
 ];
 
 pub(super) fn rows() -> Vec<Row> {

@@ -1,7 +1,7 @@
 //! The life tab: the list of populations, and the parameters of the selected one.
 
 use super::{Draft, biomes, owner_box, rest};
-use crate::editor::command::Action;
+use crate::editor::command::{Action, PanelAction, SculptAction};
 use crate::editor::widgets::choice_field::swatch;
 use crate::editor::widgets::drag_row::dragged_row;
 use crate::editor::widgets::icon::{Icon, icon_button};
@@ -14,6 +14,9 @@ use eframe::egui::{self, AtomExt};
 
 /// Share of the tab's height that the list takes at most.
 const LIST_SHARE: f32 = 0.42;
+
+/// Width of the button behind a row, with its gap.
+const PAINT_WIDTH: f32 = 52.0;
 
 /// Index of the row that is dragged.
 #[derive(Clone, Copy)]
@@ -119,9 +122,15 @@ fn list(ui: &mut egui::Ui, state: &mut LifeState, draft: &mut Draft<'_>) {
             let atoms = (egui::Atom::from(name).atom_shrink(true), egui::Atom::grow(), details);
             let button = egui::Button::selectable(state.selected == index, atoms)
                 .truncate()
-                .min_size(egui::vec2(ui.available_width(), 20.0))
+                .min_size(egui::vec2(ui.available_width() - PAINT_WIDTH, 20.0))
                 .sense(egui::Sense::click_and_drag());
-            let response = ui.add(button);
+            let response = ui.add_sized(egui::vec2(ui.available_width() - PAINT_WIDTH, 20.0), button);
+            let told = "Plant the population by hand; with Shift clear it";
+            let paint = ui.small_button("Paint").on_hover_text(told);
+            if paint.accessible_name(format!("Paint {}", population.name)).clicked() {
+                let action = SculptAction::PaintLife(index);
+                draft.commands.push(Action::Panel(PanelAction::Sculpt(action)));
+            }
             if response.clicked() {
                 state.selected = index;
             }

@@ -7,7 +7,7 @@ use crate::editor::state::describe;
 use crate::editor::viewport::sculpt::{SculptLink, tidy_km};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::row_view::{LockView, RowView};
-use crate::planet::edits::{Flatten, GroundEdit, MaskPaint, edit_path};
+use crate::planet::edits::{Flatten, GroundEdit, LifePaint, MaskPaint, PlacedObject, edit_path};
 use crate::planet::param::{Choice, ParamPath};
 use crate::planet::{Mask, PaintedMask, Planet, TableRows, Tool};
 use eframe::egui;
@@ -88,6 +88,7 @@ impl SculptState {
         match action {
             SculptAction::Take(tool) => (self.tool, self.in_hand, self.measures) = (tool, true, false),
             SculptAction::PaintMask { layer, mask } => self.take_mask(planet, layer, mask),
+            SculptAction::PaintLife(index) => self.take_life(planet, index),
             SculptAction::Select(index) => self.select(index),
             SculptAction::PutDown => (self.in_hand, self.measures) = (!self.in_hand, false),
             SculptAction::Measure => (self.in_hand, self.measures) = (false, !self.measures),
@@ -114,6 +115,16 @@ impl SculptState {
         }
     }
 
+    /// Takes the life tool in hand, for a population.
+    fn take_life(&mut self, planet: &Planet, index: usize) {
+        let Some(population) = planet.life.get(index) else { return };
+        let tool = Tool::Life(LifePaint::default()).index();
+        (self.tool, self.in_hand, self.measures) = (tool, true, false);
+        if let Tool::Life(paint) = &mut self.brush(planet).tool {
+            paint.population.clone_from(&population.name);
+        }
+    }
+
     /// Gives the picture tool in hand a picture.
     pub fn set_picture(&mut self, planet: &Planet, file: &Path) {
         if let Tool::Picture(stamp) = &mut self.brush(planet).tool {
@@ -136,6 +147,12 @@ impl SculptState {
             && let Some(first) = planet.biomes.palette.first()
         {
             paint.biome = first.key;
+        }
+        if let Tool::Life(LifePaint { population: name, .. }) | Tool::Object(PlacedObject { population: name, .. }) =
+            &mut self.brushes[at].1.tool
+            && planet.life.iter().all(|population| population.name != *name)
+        {
+            name.clear();
         }
         &mut self.brushes[at].1
     }
@@ -192,6 +209,9 @@ fn tools(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
         }
         (true, Some(Tool::Raise(_))) => {
             "Drag to raise, with Shift to lower. Alt and drag moves the camera; [ and ] change the size."
+        }
+        (true, Some(Tool::Life(_))) => {
+            "Drag to plant, with Shift to clear. Alt and drag moves the camera; [ and ] change the size."
         }
         _ => "Drag over the ground. Alt and drag moves the camera; [ and ] change the size.",
     };
@@ -289,7 +309,11 @@ fn paint_mask(ui: &mut egui::Ui, edit: &GroundEdit, owner: &str) -> Option<Strin
 fn skipped(list: &[&'static str], tool: &Tool) -> Vec<&'static str> {
     let ground: &[&'static str] = if tool.is_paint() { &OF_GROUND } else { &[] };
     let stamp: &[&'static str] = if tool.is_stamp() { &[] } else { &OF_STAMPS };
-    let fades: &[&'static str] = if matches!(tool, Tool::River(_)) { &["softness"] } else { &[] };
+    let fades: &[&'static str] = match tool {
+        Tool::River(_) => &["softness"],
+        Tool::Object(_) => &["softness", "raggedness"],
+        _ => &[],
+    };
     let mask: &[&'static str] = if tool.reads_mask() { &[] } else { &OF_MASKED };
     [list, ground, stamp, fades, mask].concat()
 }
@@ -303,6 +327,9 @@ fn idle_tool(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
     }
     if let (Tool::Clouds(_), None) = (tool, &planet.clouds) {
         ui.weak("The planet has no clouds: switch them on in the Clouds tab, or nothing is painted.");
+    }
+    if matches!(tool, Tool::Life(_) | Tool::Object(_)) && planet.life.is_empty() {
+        ui.weak("The planet has no population: add one in the Life tab, or nothing is planted.");
     }
     if tool.is_structural() && planet.structure.is_none() {
         ui.weak("The planet has no structure that could answer: give it one in the Structure tab.");

@@ -157,6 +157,7 @@ impl Document {
         // A surface rule that was just switched on gets a biome, within the same step.
         planet.biomes.name_missing(false);
         planet.edits.follow_palette(&self.planet.biomes.palette, &planet.biomes.palette);
+        planet.edits.follow_populations(&self.planet.life, &planet.life);
         self.history.record(&self.planet, &label);
         self.show(Arc::new(planet));
     }

@@ -370,7 +370,7 @@ fn pressed(point: EditPoint, pressure: Option<f64>) -> EditPoint {
     EditPoint { strength, ..point }
 }
 
-/// Turns a tool around: what raises lowers, what is left is right.
+/// Turns a tool around: what raises lowers, what is left is right, what plants clears.
 fn invert(tool: &mut Tool) {
     match tool {
         Tool::Raise(raise) => raise.amount_m = -raise.amount_m,
@@ -381,6 +381,7 @@ fn invert(tool: &mut Tool) {
         Tool::Temperature(paint) if paint.mode == PaintMode::Shift => paint.temperature_c = -paint.temperature_c,
         Tool::Clouds(paint) => paint.amount = -paint.amount,
         Tool::Mask(paint) => paint.amount = -paint.amount,
+        Tool::Life(paint) => paint.density = 0.0,
         Tool::Uplift(paint) => paint.uplift_m = -paint.uplift_m,
         Tool::Rock(paint) => paint.hardness = -paint.hardness,
         Tool::Rain(paint) => paint.rain_mm = -paint.rain_mm,

@@ -1,6 +1,7 @@
-//! Fields for a choice: one of several names, or a biome of the palette.
+//! Fields for a choice: one of several names, a biome of the palette, or a population.
 
 use super::param_row::BiomeName;
+use crate::planet::Planet;
 use crate::planet::param::Choice;
 use eframe::egui;
 
@@ -43,6 +44,22 @@ pub fn biome_box(ui: &mut egui::Ui, name: &str, key: &mut char, biomes: &[BiomeN
                     swatch(ui, rect, biome.color);
                     ui.selectable_value(key, biome.key, &biome.name);
                 });
+            }
+        })
+        .response
+        .accessible_name(name);
+}
+
+/// The populations of a planet by name. `none`: what an empty name means; it comes first.
+pub fn population_box(ui: &mut egui::Ui, (name, none): (&str, &str), chosen: &mut String, planet: &Planet) {
+    egui::ComboBox::from_id_salt("population")
+        .selected_text(if chosen.is_empty() { none } else { chosen.as_str() })
+        .width(ui.available_width().min(160.0))
+        .truncate()
+        .show_ui(ui, |ui| {
+            ui.selectable_value(chosen, String::new(), none);
+            for population in planet.life.iter().filter(|population| !population.name.is_empty()) {
+                ui.selectable_value(chosen, population.name.clone(), &population.name);
             }
         })
         .response

@@ -3,7 +3,7 @@
 //! The row knows the parameter by its [`Param`] alone. Its widgets have accessible names such as "Amplitude of
 //! Continents"; that of the number beside a slider is "Amplitude of Continents as a number".
 
-use super::choice_field::{biome_box, biome_boxes, choice_box};
+use super::choice_field::{biome_box, biome_boxes, choice_box, population_box};
 use super::color_field::{color_button, hex_field};
 use super::curve_edit::CurveEdit;
 use super::curve_view::CurveView;
@@ -351,6 +351,9 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> (bool,
         }
         (Domain::File { max_chars }, ValueMut::Text(text)) => {
             return (file_field(ui, &name, text, max_chars), None);
+        }
+        (Domain::PopulationName { none, .. }, ValueMut::Text(text)) => {
+            population_box(ui, (&name, none), text, row.planet);
         }
         (Domain::MaskName { max_chars }, ValueMut::Text(text)) => {
             focus(mask_field(ui, &name, text, max_chars, row));

@@ -17,9 +17,9 @@ pub use list::GroundEdits;
 pub(crate) use list::Shared;
 pub use points::{EditPoint, EditPoints};
 pub use tools::{
-    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, MaskPaint, Mesa, MoisturePaint,
-    PaintMode, PictureStamp, RainPaint, Raise, Ridge, RiverCourse, Road, RockPaint, Roughen, Smooth, TemperaturePaint,
-    Terrace, Thermal, Tool, UpliftPaint, Volcano, Wall,
+    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, LifePaint, MaskPaint, Mesa,
+    MoisturePaint, PaintMode, PictureStamp, PlacedObject, RainPaint, Raise, Ridge, RiverCourse, Road, RockPaint,
+    Roughen, Smooth, TemperaturePaint, Terrace, Thermal, Tool, UpliftPaint, Volcano, Wall,
 };
 
 use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, count, linear, log, params};

@@ -65,12 +65,17 @@ kinds! {
     Rain(RainPaint) = "Rain",
     /// The course of a river of the structure, from its spring to its mouth: it carves its valley along the line.
     River(RiverCourse) = "River",
+    /// Paints what stands on the ground: clears it, or plants it. Nothing stands in water that may not.
+    Life(LifePaint) = "Life",
+    /// An object of a population at each point: a tree, a stone. It stands wherever it is put.
+    Object(PlacedObject) = "Object",
 }
 
 impl Tool {
     /// Whether the tool acts around each of its points alone, and not along the line through them.
     pub fn is_stamp(&self) -> bool {
         matches!(self, Tool::Crater(_) | Tool::Volcano(_) | Tool::Mesa(_) | Tool::Island(_) | Tool::Picture(_))
+            || matches!(self, Tool::Object(_))
     }
 
     /// Whether the tool reads the ground around a point, as earlier edits left it.
@@ -93,9 +98,10 @@ impl Tool {
     }
 
     /// Whether the tool leaves the ground under it as it is: it paints the climate, the clouds, a mask of
-    /// layers or the structure.
+    /// layers, what stands on the ground or the structure.
     pub fn is_paint(&self) -> bool {
-        matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_) | Tool::Mask(_))
+        matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_) | Tool::Clouds(_))
+            || matches!(self, Tool::Mask(_) | Tool::Life(_) | Tool::Object(_))
             || self.is_structural()
     }
 
@@ -407,5 +413,32 @@ params! {
         spring_m3_s: f64 = 200.0, "Spring", Unit::CubicMetresPerSecond, log(0.0, 500_000.0), Stage::Field;
         /// How far the river has cut down: 0 is as its water has, 1 is as gently as rivers run.
         cut: f64 = 0.9, "Cut", Unit::None, linear(0.0, 1.0), Stage::Field;
+    }
+}
+
+params! {
+    /// `share + (density - share) * w`, where `share` is the share of its greatest density that a population has
+    pub struct LifePaint {
+        /// Name of the population; empty for all of them.
+        population: String = String::new(), "Population", Unit::None,
+            Domain::PopulationName { max_chars: 48, none: "All populations" }, Stage::Life;
+        /// Share of its greatest density that the population gets: 0 clears, 1 plants it as dense as where everything
+        /// suits it.
+        density: f64 = 1.0, "Density", Unit::None, linear(0.0, 1.0), Stage::Life;
+    }
+}
+
+params! {
+    /// An object at each point, on the ground there; widths of points and sizes of copies are factors on its height.
+    pub struct PlacedObject {
+        /// Name of its population; empty for the first one.
+        population: String = String::new(), "Population", Unit::None,
+            Domain::PopulationName { max_chars: 48, none: "The first" }, Stage::Life;
+        /// Height as a factor on the mean height of its population.
+        size: f64 = 1.0, "Size", Unit::None, log(0.1, 4.0), Stage::Life;
+        /// Clockwise turn, seen from above.
+        turn_deg: f64 = 0.0, "Turn", Unit::Degrees, linear(-180.0, 180.0), Stage::Life;
+        /// Copies are turned at random, by up to this angle either way.
+        random_turn_deg: f64 = 180.0, "Random turn", Unit::Degrees, linear(0.0, 180.0), Stage::Life;
     }
 }

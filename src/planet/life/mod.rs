@@ -2,8 +2,10 @@
 //!
 //! - `forms`: the forms of objects, and the parameters of each
 //! - `ready`: populations to start from
+//! - `painted`: populations that edits name
 
 mod forms;
+mod painted;
 mod ready;
 
 pub use forms::{

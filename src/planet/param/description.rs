@@ -108,6 +108,13 @@ pub enum Domain {
         /// Most characters allowed.
         max_chars: usize,
     },
+    /// The name of a population: at most this many characters.
+    PopulationName {
+        /// Most characters allowed.
+        max_chars: usize,
+        /// What an empty name means.
+        none: &'static str,
+    },
     /// The path of a file, relative to the preset's folder or absolute; at most this many characters.
     File {
         /// Most characters allowed.
@@ -168,7 +175,10 @@ impl Param {
             Domain::Count { min, max } => format!("{min} to {max}"),
             Domain::Triple { max } => format!("0 to {max}{gap}{unit} each"),
             Domain::Color => "0 to 1 each".to_owned(),
-            Domain::Text { max_chars } | Domain::MaskName { max_chars } | Domain::File { max_chars } => {
+            Domain::Text { max_chars }
+            | Domain::MaskName { max_chars }
+            | Domain::PopulationName { max_chars, .. }
+            | Domain::File { max_chars } => {
                 format!("at most {max_chars} characters")
             }
             Domain::BiomeKeys => format!("at most {MAX_BIOMES} keys of biomes"),

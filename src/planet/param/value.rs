@@ -66,7 +66,8 @@ pub enum ValueMut<'a> {
     Flag(&'a mut bool),
     /// See [`Domain::Color`] and [`Domain::Triple`].
     Triple(&'a mut [f64; 3]),
-    /// See [`Domain::Text`], [`Domain::BiomeKeys`], [`Domain::MaskName`] and [`Domain::File`].
+    /// See [`Domain::Text`], [`Domain::BiomeKeys`], [`Domain::MaskName`], [`Domain::PopulationName`] and
+    /// [`Domain::File`].
     Text(&'a mut String),
     /// See [`Domain::Letter`] and [`Domain::BiomeKey`].
     Letter(&'a mut char),
@@ -149,7 +150,10 @@ impl Value {
             }
             (
                 Value::Text(v),
-                Domain::Text { max_chars } | Domain::MaskName { max_chars } | Domain::File { max_chars },
+                Domain::Text { max_chars }
+                | Domain::MaskName { max_chars }
+                | Domain::PopulationName { max_chars, .. }
+                | Domain::File { max_chars },
             ) => {
                 if v.chars().count() > max_chars {
                     Some(format!("{} characters are too many; use {}", v.chars().count(), param.range_text()))

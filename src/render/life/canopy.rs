@@ -14,13 +14,28 @@ pub(crate) const LAYERS: usize = 4;
 pub(crate) const LAYER_ROWS: usize = 9;
 /// Rows of a biome.
 pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
+/// Row of a population that begins with its slopes, and a slope that no ground has.
+const SLOPES: usize = 2;
+const NO_SLOPE_DEG: f32 = 1000.0;
+
 /// The canopy of a population.
 #[derive(Clone, Debug, PartialEq)]
 struct Layer {
     biomes: String,
+    /// Whether strokes may plant it where no rule puts it.
+    is_planted: bool,
     height_m: f64,
     area: f64,
     texels: [[f32; 4]; LAYER_ROWS],
+}
+
+impl Layer {
+    /// The population in a biome where no rule puts it: the range of its slopes is one that no ground has.
+    fn where_planted(&self) -> Self {
+        let mut own = self.clone();
+        [own.texels[SLOPES][0], own.texels[SLOPES][1]] = [NO_SLOPE_DEG; 2];
+        own
+    }
 }
 
 /// The canopies of a planet.
@@ -31,9 +46,12 @@ impl CanopyRows {
     /// The canopies of a body's populations, as far as they are known.
     pub(crate) fn new(body: &Body<'_>) -> Self {
         let scenery = &body.surface.scenery;
-        let layers = layers(scenery, populations(body)).zip(&scenery.reach_m);
-        let layers = layers.filter_map(|((population, layer), reach_m)| Some((population, layer?, *reach_m)));
-        let layers = layers.map(|(population, layer, reach_m)| {
+        let planting = |index: usize| scenery.planting.as_ref().and_then(|map| map.populations.get(index).copied());
+        let layers = layers(scenery, populations(body)).zip(&scenery.reach_m).enumerate();
+        let layers = layers.filter_map(|(index, ((population, layer), reach_m))| {
+            Some((population, layer?, *reach_m, planting(index).unwrap_or_default()))
+        });
+        let layers = layers.map(|(population, layer, reach_m, (channel, is_planted))| {
             let ([r, g, b], cover) = (layer.color, &layer.cover);
             let (fallen, littered) = layer.litter;
             let shore_m = if population.in_water { -1e6 } else { population.shore_m };
@@ -51,10 +69,11 @@ impl CanopyRows {
                 [cover.sun[0][0], cover.sun[0][1], shading(&layer), layer.height_m],
                 [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
                 [fallen[0], fallen[1], fallen[2], littered],
-                [layer.through[0], layer.through[1], layer.through[2], 0.0],
+                [layer.through[0], layer.through[1], layer.through[2], f64::from(channel)],
             ];
             Layer {
                 biomes: population.biomes.clone(),
+                is_planted,
                 height_m: layer.height_m,
                 area: layer.top + layer.side,
                 texels: texels.map(|row| row.map(|number| number as f32)),
@@ -66,9 +85,16 @@ impl CanopyRows {
     /// The populations of a biome that count, the highest first: their number and their rows.
     pub(crate) fn of_biome(&self, key: char) -> (usize, [[f32; 4]; ROWS]) {
         let stands = |layer: &&Layer| layer.biomes.is_empty() || layer.biomes.contains(key);
-        let mut layers: Vec<&Layer> = self.0.iter().filter(stands).collect();
-        layers.sort_by(|a, b| b.area.total_cmp(&a.area));
-        layers.truncate(LAYERS);
+        let by_area = |layers: &mut Vec<Layer>| layers.sort_by(|a, b| b.area.total_cmp(&a.area));
+        let mut layers: Vec<Layer> = self.0.iter().filter(stands).cloned().collect();
+        by_area(&mut layers);
+        let strangers = self.0.iter().filter(|layer| !stands(layer) && layer.is_planted);
+        let mut strangers: Vec<Layer> = strangers.map(Layer::where_planted).collect();
+        by_area(&mut strangers);
+        // One that strokes plant is worth more than the one that covers least.
+        layers.truncate(if strangers.is_empty() { LAYERS } else { LAYERS - 1 });
+        strangers.truncate(LAYERS - layers.len());
+        layers.extend(strangers);
         layers.sort_by(|a, b| b.height_m.total_cmp(&a.height_m));
         let mut rows = [[0.0; 4]; ROWS];
         for (to, from) in rows.iter_mut().zip(layers.iter().flat_map(|layer| layer.texels)) {

@@ -1,6 +1,7 @@
 //! Objects that stand on the ground, in the opaque stage.
 //!
 //! - `canopy`: what of them is seen from afar, in the parameters of biomes (`canopy.wgsl`)
+//! - `planting`: what edits make of it (`planting.wgsl`)
 //! - `models`: meshes on the GPU
 //! - `material`: their materials (`life_material.wgsl`)
 //! - `view`: which objects a view draws, at which level of detail
@@ -11,6 +12,7 @@ mod canopy;
 mod material;
 mod models;
 mod pass;
+mod planting;
 mod shadow;
 mod view;
 
@@ -18,5 +20,6 @@ pub(crate) use canopy::{CanopyRows, LAYER_ROWS as CANOPY_LAYER_ROWS, LAYERS as C
 pub(crate) use material::Material;
 pub(crate) use models::LifeModels;
 pub(crate) use pass::{LifePass, LifeTargets};
+pub(crate) use planting::PlantingBuffer;
 pub(crate) use shadow::{CASCADES, Cascades, ShadowMap};
 pub(crate) use view::LifeView;

@@ -21,6 +21,7 @@ use super::{horizon_pool, material_noise};
 use crate::giant;
 use crate::life::canopy;
 use crate::life::form::cover;
+use crate::life::planting_map;
 use crate::life::scenery::FULL_SHARE;
 use crate::life::suitability;
 use crate::lod::horizon::AZIMUTHS;
@@ -105,6 +106,7 @@ pub(crate) fn text() -> String {
         ("CANOPY_LAYERS", &(CANOPY_LAYERS as i32)),
         ("CANOPY_LAYER_ROWS", &(CANOPY_LAYER_ROWS as i32)),
         ("LITTER_AREA", &canopy::LITTER_AREA),
+        ("PLANTING_SIDE", &(planting_map::SIDE as u32)),
         ("PATTERN_STEEPEST", &f64::from(PATTERN_STEEPEST)),
         ("PATTERN_ROUGHNESS", &f64::from(PATTERN_ROUGHNESS)),
         ("PATTERN_SIDE", &(material_noise::SIDE as f64)),

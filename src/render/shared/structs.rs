@@ -383,6 +383,14 @@ uniform_struct! {
         has_shadows: u32,
         /// Width of a texel of each cascade.
         shadow_texel_m: Vec2,
+        /// Squares of the planting map; 0 without one.
+        planting_levels: u32,
+        /// Tangents along the sides of its squares, and the eye's place along them.
+        planting_east: Vec3,
+        planting_north: Vec3,
+        planting_eye_m: Vec2,
+        /// Width of a texel of its finest square.
+        planting_texel_m: f32,
     }
 }
 

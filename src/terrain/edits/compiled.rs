@@ -348,6 +348,25 @@ impl CompiledEdit {
         fade.weight * fade.taper.strength
     }
 
+    /// Whether a direction within reach lies on the bed of a road, up to half-way down its sides, or on the top of a
+    /// wall.
+    pub(super) fn bears_nothing(&self, dir: DVec3, nearest: &Nearest) -> bool {
+        let wide = match self.tool {
+            CompiledTool::Road { .. } => 0.5 * (1.0 + self.core),
+            CompiledTool::Wall { top, .. } => top,
+            _ => return false,
+        };
+        let taper = self.arcs[nearest.arc as usize].taper(dir);
+        let stretch = self.outline.as_ref().map_or(1.0, |noise| self.stretch(noise.at(dir).value).0);
+        let away_rad = angle_of(nearest.chord2) * stretch;
+        taper.strength > 0.0 && away_rad <= wide * self.radius_rad * taper.width
+    }
+
+    /// Whether the edit is the bed of a road, or a wall.
+    pub(super) fn is_built(&self) -> bool {
+        matches!(self.tool, CompiledTool::Road { .. } | CompiledTool::Wall { .. })
+    }
+
     /// The weight of paint with its gradient, as the change of an effect. None where it is 0.
     pub(super) fn weighted(&self, dir: DVec3, nearest: &Nearest) -> Option<Effect<'_>> {
         let Fade { weight, by_plain, plain, taper, outline } = self.fade(dir, nearest);

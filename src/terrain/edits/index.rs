@@ -230,6 +230,54 @@ impl Index {
         (!cell.list.is_empty()).then(|| Key::of(&cell.hash))
     }
 
+    /// The key of those pieces that touch a node and belong to some edits; None if none does.
+    pub(super) fn key_of_some(
+        &self,
+        id: NodeId,
+        roster: &Roster,
+        wanted: impl Fn(&CompiledEdit) -> bool,
+    ) -> Option<Key> {
+        let near = self.pieces_of_some(id, roster, wanted);
+        (!near.is_empty()).then(|| Key::of(&hash(&near, roster)))
+    }
+
+    /// The key of those pieces that touch a disc and belong to some edits; None if none does.
+    pub(super) fn key_in(
+        &self,
+        (dir, chord): (DVec3, f64),
+        roster: &Roster,
+        wanted: impl Fn(&CompiledEdit) -> bool,
+    ) -> Option<Key> {
+        let mut near = Vec::new();
+        let touches = |number: &u32| roster.piece(*number).is_some_and(|piece| piece.touches(dir, chord));
+        let counts = |number: &u32| touches(number) && roster.edit(slot_of(*number)).is_some_and(|edit| wanted(edit));
+        self.each_leaf(Some((dir, chord)), &mut |pieces| near.extend(pieces.iter().copied().filter(counts)));
+        near.sort_unstable_by_key(|number| roster.rank(*number));
+        near.dedup();
+        (!near.is_empty()).then(|| Key::of(&hash(&near, roster)))
+    }
+
+    /// The pieces that touch a node and belong to some edits, in the order in which they act.
+    pub(super) fn pieces_of_some(
+        &self,
+        id: NodeId,
+        roster: &Roster,
+        wanted: impl Fn(&CompiledEdit) -> bool,
+    ) -> Vec<u32> {
+        let Some(mut cell) = self.faces.get(id.face as usize) else { return Vec::new() };
+        for shift in (0..id.level).rev() {
+            let Some(quarters) = &cell.quarters else { break };
+            cell = &quarters[(id.x >> shift & 1) as usize + 2 * (id.y >> shift & 1) as usize];
+        }
+        if cell.list.is_empty() {
+            return Vec::new();
+        }
+        let (middle, chord) = disc_of(id);
+        let touches = |number: &u32| roster.piece(*number).is_some_and(|piece| piece.touches(middle, chord));
+        let counts = |number: &u32| touches(number) && roster.edit(slot_of(*number)).is_some_and(|edit| wanted(edit));
+        cell.list.iter().copied().filter(counts).collect()
+    }
+
     /// Calls `found` with the list of each leaf that may touch a disc, given by its middle and chord (None: of every
     /// leaf).
     pub(super) fn each_leaf(&self, near: Option<(DVec3, f64)>, found: &mut dyn FnMut(&[u32])) {

@@ -10,6 +10,7 @@
 //! - `stamp`: height pictures as stamps
 //! - `paint`: painted climate and clouds
 //! - `mask`: painted masks of layers and of other edits
+//! - `life`: painted life, and what roads and walls clear
 //! - `scatter`: copies of stamps whose places follow a mask
 //! - `limits`: heights to which an edit is limited
 //! - `structural`: paint of a structure, and rivers whose courses are drawn
@@ -31,6 +32,7 @@ mod context;
 mod gullies;
 mod index;
 mod leaves;
+mod life;
 mod limits;
 mod mask;
 mod memory;
@@ -58,6 +60,7 @@ use compiled::CompiledEdit;
 use glam::DVec3;
 pub(crate) use index::chord_of;
 use index::{Index, Piece};
+pub(crate) use life::{Placed, Planting, PopulationId};
 pub(crate) use mask::MaskId;
 pub(crate) use memory::Memory;
 pub(crate) use near::Near;
@@ -89,6 +92,8 @@ pub(crate) struct Edits {
     clouds: Index,
     /// Those that paint masks of layers.
     masks: Index,
+    /// Those that change what stands on the ground.
+    life: Index,
     /// Those that paint the structure, and rivers whose courses are drawn.
     structural: Index,
     courses: Vec<DrawnCourse>,
@@ -98,13 +103,14 @@ pub(crate) struct Edits {
     masked: Masked,
 }
 
-/// Which edits painted masks limit: whether one of the ground, of the climate, of clouds, of the structure.
+/// Which edits painted masks limit: whether one of the ground, of the climate, of clouds, of the structure, of life.
 #[derive(Clone, Copy, Debug, Default)]
 struct Masked {
     ground: bool,
     climate: bool,
     clouds: bool,
     structure: bool,
+    life: bool,
 }
 
 impl Masked {
@@ -115,8 +121,10 @@ impl Masked {
                 None => masked.ground = true,
                 Some(Paint::Clouds { .. }) => masked.clouds = true,
                 Some(Paint::Structure(_)) => masked.structure = true,
+                Some(Paint::Life { .. } | Paint::Object { .. }) => {}
                 Some(_) => masked.climate = true,
             }
+            masked.life |= edit.is_life();
         }
         masked
     }
@@ -154,6 +162,7 @@ impl fmt::Debug for Edits {
             .field(&self.cloud_key())
             .field(&self.structure_key())
             .field(&self.mask_key())
+            .field(&self.life_key())
             .finish()
     }
 }
@@ -191,6 +200,7 @@ impl Edits {
             climate: Index::default(),
             clouds: Index::default(),
             masks: Index::default(),
+            life: Index::default(),
             structural: Index::default(),
             courses: Vec::new(),
             places: Places::default(),
@@ -213,6 +223,7 @@ impl Edits {
         let mut ground = self.ground.next(&roster, &changes, is_ground);
         let climate = self.climate.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_climate));
         let clouds = self.clouds.next(&roster, &changes, |edit| matches!(edit.paint(), Some(Paint::Clouds { .. })));
+        let life = self.life.next(&roster, &changes, CompiledEdit::is_life);
         let structural = self.structural.next(&roster, &changes, |edit| edit.structure_paint().is_some());
         let courses =
             if changes.is_empty() { self.courses.clone() } else { structural::courses_of(&roster, world.radius_m) };
@@ -225,7 +236,8 @@ impl Edits {
         let reads = roster.reading().next().is_some();
         let masked = Masked::of(&roster);
         let key = ground.key_of_all();
-        Self { world, list, roster, key, ground, climate, places, clouds, masks, structural, courses, reads, masked }
+        let indices = Self { ground, climate, clouds, masks, life, structural, ..Self::none(world) };
+        Self { list, roster, key, places, courses, reads, masked, ..indices }
     }
 
     /// The same edits on a planet whose biome table may be another.

@@ -2,6 +2,7 @@
 //! has in the biome table. Painted clouds: strokes that change the log-odds of their cover. Paint of the structure is
 //! in `structural`.
 
+use super::life::PopulationId;
 use super::mask::MaskId;
 use super::structural::StructurePaint;
 use crate::planet::{Biomes, Planet, Table, TableRows};
@@ -89,6 +90,18 @@ pub(super) enum Paint {
         mask: MaskId,
         amount: f64,
     },
+    /// A share of the way to a share of the greatest density of a population, or of all.
+    Life {
+        population: Option<PopulationId>,
+        density: f64,
+    },
+    /// Objects of a population, or of the first: factor on their height, clockwise turn, and the most that copies are
+    /// turned besides.
+    Object {
+        population: Option<PopulationId>,
+        size: f64,
+        turns_rad: [f64; 2],
+    },
     Structure(StructurePaint),
     /// The course of a river of the structure.
     Course,
@@ -121,7 +134,8 @@ impl Paint {
                     painted.temperature.set(temperature_c, weight * strength);
                 }
             }
-            Self::Clouds { .. } | Self::Mask { .. } | Self::Structure(_) | Self::Course => {}
+            Self::Clouds { .. } | Self::Mask { .. } | Self::Life { .. } | Self::Object { .. } => {}
+            Self::Structure(_) | Self::Course => {}
         }
     }
 }

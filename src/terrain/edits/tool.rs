@@ -2,15 +2,16 @@
 //! reach of the tool and beyond.
 
 use super::index::Hash;
+use super::life::PopulationId;
 use super::mask::MaskId;
 use super::outline;
 use super::paint::Paint;
 use super::structural::StructurePaint;
 use super::widening::Widening;
 use crate::planet::edits::{
-    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, MaskPaint, Mesa, MoisturePaint,
-    PaintMode, PictureStamp, RainPaint, Raise, Ridge, Road, RockPaint, Roughen, Smooth, TemperaturePaint, Terrace,
-    Thermal, UpliftPaint, Volcano, Wall,
+    BiomePaint, Canyon, CloudPaint, Coast, Crater, Fault, Flatten, Hydraulic, Island, LifePaint, MaskPaint, Mesa,
+    MoisturePaint, PaintMode, PictureStamp, PlacedObject, RainPaint, Raise, Ridge, Road, RockPaint, Roughen, Smooth,
+    TemperaturePaint, Terrace, Thermal, UpliftPaint, Volcano, Wall,
 };
 use crate::planet::picture::PictureExtent;
 use crate::planet::{GroundEdit, Tool};
@@ -232,6 +233,15 @@ impl CompiledTool {
             Tool::Rain(RainPaint { rain_mm }) => Self::Paint(Paint::Structure(StructurePaint::Rain { rain_mm })),
             Tool::River(_) => Self::Paint(Paint::Course),
             Tool::Mask(MaskPaint { ref mask, amount }) => Self::Paint(Paint::Mask { mask: MaskId::of(mask), amount }),
+            Tool::Life(LifePaint { ref population, density }) => {
+                let population = (!population.is_empty()).then(|| PopulationId::of(population));
+                Self::Paint(Paint::Life { population, density })
+            }
+            Tool::Object(PlacedObject { ref population, size, turn_deg, random_turn_deg }) => {
+                let population = (!population.is_empty()).then(|| PopulationId::of(population));
+                let turns_rad = [turn_deg, random_turn_deg].map(f64::to_radians);
+                Self::Paint(Paint::Object { population, size, turns_rad })
+            }
             Tool::Clouds(CloudPaint { amount }) => Self::Paint(Paint::Clouds { odds: CLOUD_ODDS * amount }),
         }
     }
@@ -275,6 +285,14 @@ impl CompiledTool {
                 hash.add(high);
                 hash.add(low);
                 (28, [amount, 0.0, 0.0, 0.0])
+            }
+            Self::Paint(Paint::Life { population, density }) => {
+                population.iter().flat_map(|population| population.words()).for_each(|word| hash.add(word));
+                (29, [density, 0.0, 0.0, 0.0])
+            }
+            Self::Paint(Paint::Object { population, size, turns_rad: [turn_rad, random_rad] }) => {
+                population.iter().flat_map(|population| population.words()).for_each(|word| hash.add(word));
+                (30, [size, turn_rad, random_rad, 0.0])
             }
         };
         hash.add(kind);

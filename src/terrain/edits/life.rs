@@ -1,0 +1,190 @@
+//! Painted life: strokes that clear the ground or plant it, roads and walls, on which nothing stands, and objects that
+//! are placed one by one.
+
+use super::Edits;
+use super::compiled::CompiledEdit;
+use super::near::{Hit, Near, Touch};
+use super::paint::Paint;
+use super::path::Arc;
+use super::roster::slot_of;
+use crate::planet::Key;
+use crate::sphere::NodeId;
+use glam::DVec3;
+use std::cell::RefCell;
+
+/// A population, by a hash of its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PopulationId(Key);
+
+impl PopulationId {
+    pub(crate) fn of(name: &str) -> Self {
+        Self(Key::of(name))
+    }
+
+    /// The two halves of the hash.
+    pub(super) fn words(self) -> [u64; 2] {
+        [(self.0.bits() >> 64) as u64, self.0.bits() as u64]
+    }
+}
+
+/// What edits make of the share of its greatest density that a population has by rule: `keep * share + add`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Planting {
+    pub(crate) keep: f64,
+    pub(crate) add: f64,
+}
+
+impl Planting {
+    /// No edit.
+    pub(crate) const NONE: Self = Self { keep: 1.0, add: 0.0 };
+
+    /// A part of the way to a share.
+    fn lead(&mut self, to: f64, weight: f64) {
+        let left = 1.0 - weight;
+        *self = Self { keep: self.keep * left, add: self.add * left + to * weight };
+    }
+
+    /// The share after the edits.
+    pub(crate) fn of(&self, share: f64) -> f64 {
+        self.keep * share + self.add
+    }
+}
+
+/// An object that is placed by hand.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed {
+    pub(crate) dir: DVec3,
+    /// Factor on the height of its population.
+    pub(crate) size: f64,
+    /// Turn against the clock, seen from above.
+    pub(crate) turn_rad: f64,
+}
+
+impl Placed {
+    /// The object at an arc of an edit.
+    fn new(arc: &Arc, size: f64, [turn_rad, random_rad]: [f64; 2]) -> Self {
+        let turn_rad = turn_rad + random_rad * arc.turned;
+        let turn_rad = if arc.flipped { turn_rad } else { -turn_rad };
+        Self { dir: arc.a, size: size * arc.scale * arc.widths[0], turn_rad }
+    }
+}
+
+impl CompiledEdit {
+    /// Whether it changes what stands on the ground.
+    pub(super) fn is_life(&self) -> bool {
+        self.is_built() || matches!(self.paint(), Some(Paint::Life { .. } | Paint::Object { .. }))
+    }
+
+    /// Whether it places objects of a population, or of the first one.
+    fn places(&self, population: PopulationId) -> bool {
+        matches!(self.paint(), Some(Paint::Object { population: of, .. }) if of.is_none_or(|of| of == population))
+    }
+
+    /// Whether it changes the share of a population; without one, whether it changes that of all of them.
+    fn plants(&self, population: Option<PopulationId>) -> bool {
+        match self.paint() {
+            Some(Paint::Life { population: Some(painted), .. }) => population == Some(*painted),
+            Some(Paint::Object { .. }) => false,
+            _ => self.is_life(),
+        }
+    }
+}
+
+impl Edits {
+    /// Whether an edit changes what stands on the ground.
+    pub(crate) fn plants(&self) -> bool {
+        !self.life.is_empty()
+    }
+
+    /// The key of all edits of what stands on the ground. None if there is none.
+    pub(crate) fn life_key(&self) -> Option<Key> {
+        (!self.life.is_empty()).then(|| Self::with_masks(self.life.key_of_all(), self.masked.life, || self.mask_key()))
+    }
+
+    /// The key of the edits that touch a node and change where a population stands. None if none does.
+    pub(crate) fn life_key_near(&self, id: NodeId, population: PopulationId) -> Option<Key> {
+        let counts = |edit: &CompiledEdit| edit.plants(Some(population)) || edit.places(population);
+        let key = self.life.key_of_some(id, &self.roster, counts)?;
+        Some(Self::with_masks(key, self.masked.life, || self.mask_key_near(id)))
+    }
+
+    /// The key of the edits that touch a disc, given by its middle and chord, and change the share of a population;
+    /// without a population, of those that change all. None if none does.
+    pub(crate) fn life_key_in(&self, disc: (DVec3, f64), population: Option<PopulationId>) -> Option<Key> {
+        let key = self.life.key_in(disc, &self.roster, |edit| edit.plants(population))?;
+        Some(Self::with_masks(key, self.masked.life, || self.mask_key()))
+    }
+
+    /// The objects of a population that are placed by hand in a node. `is_first`: whether it is the first one.
+    pub(crate) fn placed(&self, id: NodeId, (population, is_first): (PopulationId, bool)) -> Vec<Placed> {
+        let mut placed = Vec::new();
+        for number in self.life.pieces_of_some(id, &self.roster, |edit| edit.places(population)) {
+            let (Some(edit), Some(piece)) = (self.roster.edit(slot_of(number)), self.roster.piece(number)) else {
+                continue;
+            };
+            let Some(Paint::Object { population: of, size, turns_rad }) = edit.paint().copied() else { continue };
+            let arcs = edit.arcs().get(piece.first as usize..(piece.first + piece.count) as usize).unwrap_or_default();
+            let inside: Vec<&Arc> = arcs.iter().filter(|arc| NodeId::containing(arc.a, id.level) == id).collect();
+            let shares = self.shares(edit, inside.iter().map(|arc| arc.a), &[]);
+            let stands = |(own, _): &(usize, &&Arc)| (of.is_some() || is_first) && shares.of(*own) >= 0.5;
+            placed.extend(inside.iter().enumerate().filter(stands).map(|(_, arc)| Placed::new(arc, size, turns_rad)));
+        }
+        placed
+    }
+
+    /// The strokes of life: the population of each, None for all, and the density that it leads to.
+    pub(crate) fn life_strokes(&self) -> impl Iterator<Item = (Option<PopulationId>, f64)> {
+        self.roster.edits().filter_map(|edit| match edit.paint() {
+            Some(Paint::Life { population, density }) => Some((*population, *density)),
+            _ => None,
+        })
+    }
+
+    /// What edits make of the share of a population at points; nothing if none is near any. Without a population, what
+    /// those do that change all.
+    pub(crate) fn planted(&self, population: Option<PopulationId>, dirs: &[DVec3], planted: &mut Vec<Planting>) {
+        thread_local! {
+            static NEAR: RefCell<Near> = RefCell::default();
+        }
+        planted.clear();
+        if self.life.is_empty() {
+            return;
+        }
+        let mut near = NEAR.take();
+        let counts = |_: u32, edit: &CompiledEdit| edit.plants(population);
+        near.each_touch(&self.life, &self.roster, dirs, counts, |Touch { edit, hits, .. }| {
+            let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), &[]);
+            for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
+                let (density, weight) = match edit.paint() {
+                    Some(Paint::Life { density, .. }) => (*density, edit.weight(dirs[*i], nearest)),
+                    _ => (0.0, f64::from(u8::from(edit.bears_nothing(dirs[*i], nearest)))),
+                };
+                let weight = weight * shares.of(own);
+                if weight > 0.0 {
+                    planted.resize(dirs.len(), Planting::NONE);
+                    planted[*i].lead(density, weight);
+                }
+            }
+        });
+        NEAR.set(near);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strokes_in_order_are_one_change_of_the_share() {
+        let mut planting = Planting::NONE;
+        assert_eq!(planting.of(0.3), 0.3);
+        let mut share = 0.3;
+        for (density, weight) in [(1.0, 0.5), (0.0, 0.25), (0.6, 1.0 / 3.0)] {
+            planting.lead(density, weight);
+            share += (density - share) * weight;
+            assert!((planting.of(0.3) - share).abs() < 1e-15);
+        }
+        planting.lead(0.0, 1.0);
+        assert_eq!((planting.of(0.0), planting.of(1.0)), (0.0, 0.0));
+    }
+}
