@@ -22,6 +22,7 @@ mod grid;
 mod hash;
 mod model;
 mod placement;
+#[cfg(feature = "render")]
 pub(crate) mod planting_map;
 pub mod query;
 pub mod scenery;
