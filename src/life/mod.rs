@@ -23,6 +23,7 @@ mod hash;
 mod model;
 mod nearest;
 mod placement;
+#[cfg(feature = "render")]
 pub(crate) mod planting_map;
 pub mod query;
 pub mod scenery;

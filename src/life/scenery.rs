@@ -5,6 +5,7 @@ use super::form::Cover;
 use super::grid::angle;
 use super::model::Model;
 use super::placement::{Placement, PlacementScratch};
+#[cfg(feature = "render")]
 use super::planting_map::{PlantingMap, PlantingMaps};
 use super::query::Instance;
 use super::soil::{Soil, Soils};
@@ -73,6 +74,7 @@ pub struct Scenery {
     /// For each population of the planet, the cover of its form; None for those that are off.
     pub(crate) covers: Vec<Option<Cover>>,
     /// What edits make of the populations; None where no edit changes what stands on the ground.
+    #[cfg(feature = "render")]
     pub(crate) planting: Option<Arc<PlantingMap>>,
 }
 
@@ -124,6 +126,7 @@ pub(crate) struct SceneryCache {
     models: HashMap<Key, Arc<Model>>,
     covers: HashMap<Key, Cover>,
     cells: HashMap<(u16, NodeId), Arc<SceneryCell>>,
+    #[cfg(feature = "render")]
     planting: PlantingMaps,
 }
 
@@ -164,6 +167,7 @@ impl SceneryCache {
             models: vec![None; populations],
             reach_m: vec![0.0; populations],
             covers: vec![None; populations],
+            #[cfg(feature = "render")]
             planting: None,
         };
         let mut is_whole = true;
@@ -187,7 +191,10 @@ impl SceneryCache {
         is_whole &= self.make_lacking(terrain, &needed, keep_going);
         let cells = needed.iter().filter_map(|needed| self.known_by_rules(needed));
         scenery.cells = cells.filter(|cell| !cell.objects.is_empty()).cloned().collect();
-        scenery.planting = self.planting.around(terrain, view.camera.position_planet_m);
+        #[cfg(feature = "render")]
+        {
+            scenery.planting = self.planting.around(terrain, view.camera.position_planet_m);
+        }
         self.trim(&scenery);
         (scenery, is_whole)
     }

@@ -242,6 +242,7 @@ impl Index {
     }
 
     /// The key of those pieces that touch a disc and belong to some edits; None if none does.
+    #[cfg(feature = "render")]
     pub(super) fn key_in(
         &self,
         (dir, chord): (DVec3, f64),

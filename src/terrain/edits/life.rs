@@ -110,6 +110,7 @@ impl Edits {
 
     /// The key of the edits that touch a disc, given by its middle and chord, and change the share of a population;
     /// without a population, of those that change all. None if none does.
+    #[cfg(feature = "render")]
     pub(crate) fn life_key_in(&self, disc: (DVec3, f64), population: Option<PopulationId>) -> Option<Key> {
         let key = self.life.key_in(disc, &self.roster, |edit| edit.plants(population))?;
         Some(Self::with_masks(key, self.masked.life, || self.mask_key()))
@@ -133,6 +134,7 @@ impl Edits {
     }
 
     /// The strokes of life: the population of each, None for all, and the density that it leads to.
+    #[cfg(feature = "render")]
     pub(crate) fn life_strokes(&self) -> impl Iterator<Item = (Option<PopulationId>, f64)> {
         self.roster.edits().filter_map(|edit| match edit.paint() {
             Some(Paint::Life { population, density }) => Some((*population, *density)),
