@@ -27,6 +27,8 @@ const JITTER: f32 = 0.65;
 // Cosine to the normal of the ground below which rays are taken as steeper: flatter ones would see the highest tops
 // alone. Of those that are much flatter the mean is shown.
 const LEAST_MU: f32 = 0.17;
+// Depth of the saddles between closed crowns, as a share of the depth of a dome.
+const SADDLE: f32 = 0.6;
 // Way of the ray from one step to the next, at the most, in cells.
 const STEP_CELLS: f32 = 0.4;
 
@@ -117,7 +119,9 @@ fn crowns_seen(
     let steps = select(10, 5, frame.pattern_quality == 0.0);
     let top_m = height_m * (1.0 - HEIGHTS + HEIGHTS * (LEAST_SIZE + SIZES));
     let step_m = min(top_m, f32(steps) * STEP_CELLS / max(length(to_eye), 1e-6)) / f32(steps);
-    var z = top_m;
+    // A flat ray cannot be followed from the tops on: it is where closed crowns meet.
+    let saddle_m = (height_m - SADDLE * depth_m) * (1.0 - exp(-2.0 * density * covered));
+    var z = min(top_m, saddle_m + f32(steps) * step_m);
     var over_m = -top_m;
     var dome = vec4f(0.0);
     for (var i = 0; i < steps; i++) {
