@@ -317,7 +317,7 @@ fn grass_is_not_hit_and_surroundings_answer_for_the_ground_too() {
     // Over the forest a ray from high up meets what is highest.
     let mut around = Surroundings::new(forest());
     let tree = forest().instances(middle(), 20.0).unwrap()[0];
-    let trunk_m = tree.foot_planet_m(RADIUS_M) + tree.axis_planet * (0.2 * tree.size_m);
+    let trunk_m = tree.foot_planet_m(RADIUS_M) + tree.axis_planet * (0.04 * tree.size_m);
     let high_m = trunk_m + middle().any_orthonormal_vector() * 9000.0 + middle() * 9000.0;
     let met = around.raycast(high_m, trunk_m - high_m, &RayLimits::default()).unwrap();
     assert!(met.hit.away_m <= high_m.distance(trunk_m) && met.object.is_some(), "{met:?}");

@@ -14,6 +14,8 @@ use glam::DVec3;
 const MOST_SECS: f64 = 0.25;
 /// Most things in one step along which a walker slides on.
 const MOST_SLIDES: usize = 4;
+/// Most places around at which a free one is looked for.
+const MOST_PLACES: usize = 64;
 /// Shares of the skin between which the gap of one who stands may be.
 const RESTING: [f64; 2] = [0.25, 2.0];
 /// Share of a step that is lifted beside a wall that leans over.
@@ -63,6 +65,14 @@ impl Default for WalkerBody {
 }
 
 impl WalkerBody {
+    /// Way to a place around, the farther the higher its number: a spiral of the golden angle, two places on the area of
+    /// the body.
+    fn place_around(&self, up: DVec3, number: usize) -> DVec3 {
+        let (number, (east, north)) = (number as f64 + 1.0, up.any_orthonormal_pair());
+        let (sin, cos) = libm::sincos(2.399_963 * number);
+        (east * cos + north * sin) * (self.radius_m * number.sqrt())
+    }
+
     /// A person on a planet: with the gravity that its radius gives it if it is as dense as the Earth.
     pub fn on(planet: &Planet) -> Self {
         Self { gravity_m_s2: EARTH[0] * planet.radius_m() / EARTH[1], ..Self::default() }
@@ -135,13 +145,19 @@ impl Walker {
         let over = |patch: &mut GroundPatch, up: DVec3| {
             up * (patch.terrain().planet().radius_m() + patch.height_m(up) + high_m)
         };
-        let mut walker = Self::new(body, over(patch.ground(), up));
-        for _ in 0..MOST_SLIDES {
+        let first_m = over(patch.ground(), up);
+        let mut walker = Self::new(body, first_m);
+        for number in 0..MOST_SLIDES + MOST_PLACES {
             let aside_m = patch.way_aside(&body.capsule_at(walker.feet_planet_m), body.skin_m);
             if aside_m == DVec3::ZERO {
                 break;
             }
-            up = (walker.feet_planet_m + aside_m).normalize_or(up);
+            // Between objects that push it to and fro it looks around, farther and farther.
+            let place_m = match number.checked_sub(MOST_SLIDES) {
+                None => walker.feet_planet_m + aside_m,
+                Some(number) => first_m + body.place_around(up, number),
+            };
+            up = place_m.normalize_or(up);
             walker.feet_planet_m = over(patch.ground(), up);
         }
         for _ in 0..MOST_SLIDES {
