@@ -215,7 +215,7 @@ fn object_light(at: vec2<i32>, rays: CanopyRays) -> vec2f {
 
 // Light that the tops of crowns have more than all that is seen of a crown that stands alone: from above, aslant from
 // the side of the sun, and aslant against it.
-const TOPS_FROM_ABOVE: f32 = 0.2;
+const TOPS_FROM_ABOVE: f32 = 0.27;
 const TOPS_ASLANT: f32 = 0.2;
 const TOPS_AGAINST: f32 = 1.4;
 

@@ -30,4 +30,3 @@ struct ObjectLight {
 }
 
 fn kind_of(instance: Instance) -> u32 { return instance.material & 0xffffu; }
-

@@ -13,8 +13,9 @@ const GRAIN_M: vec3f = vec3f(0.45, 0.13, 0.035);
 const GRAIN_HEIGHT: f32 = 0.10;
 // Width of a leaf, metres.
 const LEAF_M: f32 = 0.09;
-// Width of a bunch of needles, metres.
-const NEEDLES_M: f32 = 0.035;
+// Distance from one needle to the next, and width of a twig with needles, metres.
+const NEEDLES_M: f32 = 0.014;
+const TWIG_M: f32 = 0.18;
 // Width of a cluster in pixels, at the least, and as a share of the height of the object, at the most.
 const CLUSTER_PIXELS: f32 = 3.0;
 const WIDEST_CLUSTER: f32 = 0.055;
@@ -145,12 +146,19 @@ fn leaves(least_m: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial
     );
 }
 
-// Needles on the blades of a conifer, which are boughs: they stand so close that gaps show near the eye alone.
-fn needles(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
-    let clear = 1.0 - smoothstep(0.4, 1.0, pixel_m / NEEDLES_M);
+// Needles on the blades of a conifer, which are boughs: strokes that lie side by side along each twig, some pixels apart.
+// They stand so close that gaps show near the eye alone.
+fn needles(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
+    let clear = 1.0 - smoothstep(0.012, 0.035, pixel_m);
     if clear <= 0.0 { return PLAIN; }
-    let out = leaves(NEEDLES_M, p_m, size_m, pixel_m);
-    return ObjectMaterial(mix(PLAIN.tint, out.tint, clear), 0.0, clear * out.tilt, 0.8 * clear * out.gap);
+    let twig = leaves_of(TWIG_M, p_m);
+    let octave = log2(max(CLUSTER_PIXELS * pixel_m / NEEDLES_M, 1.0));
+    let across = dot(p_m, normalize(twig.tilt + vec3f(0.013, 0.007, 0.011))) / (NEEDLES_M * exp2(floor(octave)));
+    let waves = abs(fract(vec2f(across, 0.5 * across)) - 0.5) * 2.0;
+    let gaps = smoothstep(vec2f(0.4), vec2f(0.8), waves);
+    return ObjectMaterial(
+        mix(vec3f(1.0), twig.tint, clear), 0.0, 0.5 * clear * twig.tilt, clear * mix(gaps.x, gaps.y, fract(octave)),
+    );
 }
 
 // `leaf`: share of the second colour. `p_m`: place in the form.
@@ -158,6 +166,6 @@ fn object_material(kind: u32, leaf: f32, p_m: vec3f, size_m: f32, pixel_m: f32) 
     if kind == ROCK { return rock(p_m, size_m, pixel_m); }
     if kind >= LEAFY && leaf < 0.5 { return bark(p_m, pixel_m); }
     if kind == LEAFY { return leaves(LEAF_M, p_m, size_m, pixel_m); }
-    if kind == NEEDLED { return needles(p_m, size_m, pixel_m); }
+    if kind == NEEDLED { return needles(p_m, pixel_m); }
     return PLAIN;
 }

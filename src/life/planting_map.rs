@@ -77,7 +77,7 @@ impl PlantingMaps {
     /// The map around an eye; None where no edit changes what stands on the ground.
     pub(super) fn around(&mut self, terrain: &Terrain, eye_m: DVec3) -> Option<Arc<PlantingMap>> {
         let (edits, planet) = (terrain.life_edits()?, terrain.planet());
-        if planet.life.iter().all(|population| !population.enabled) {
+        if !edits.plants_by_share() || planet.life.iter().all(|population| !population.enabled) {
             return None;
         }
         let (dir, radius_m) = (eye_m.normalize_or(DVec3::Z), planet.radius_m());
@@ -88,8 +88,10 @@ impl PlantingMaps {
         let node = NodeId::containing(dir, level.clamp(0.0, f64::from(NodeId::MAX_LEVEL)) as u8);
         let names: Vec<&str> = planet.life.iter().map(|population| population.name.as_str()).collect();
         let key = Key::of(&(edits.life_key(), names, radius_m.to_bits(), texel_m.to_bits(), node));
-        if let Some(kept) = self.0.iter().find(|map| map.key == key) {
-            return Some(kept.clone());
+        if let Some(at) = self.0.iter().position(|map| map.key == key) {
+            // Maps of views that stand still are kept as well.
+            self.0[..=at].rotate_right(1);
+            return self.0.first().cloned();
         }
         let populations: Vec<_> = planet.life.iter().map(|population| PopulationId::of(&population.name)).collect();
         let site = Site::new(node.direction(0.5, 0.5), radius_m, texel_m);

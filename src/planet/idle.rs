@@ -103,6 +103,7 @@ fn edit_idle(edit: &GroundEdit, name: &str) -> Idle {
             Some("The course of a river has no limits")
         }
         "softness" | "raggedness" if matches!(edit.tool, Tool::Object(_)) => Some("Objects have no edge that fades"),
+        "radius_km" if matches!(edit.tool, Tool::Object(_)) => Some("Objects have a size instead"),
         "mask" => when(!edit.tool.reads_mask(), "Rivers and masks are not limited by masks"),
         "outside_mask" => when(edit.limiting_mask().is_none(), "The edit has no mask"),
         "copies" | "spread_km" | "smallest" if !edit.tool.is_stamp() => Some("Only stamps have copies"),

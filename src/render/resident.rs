@@ -25,5 +25,6 @@ fn of_view(view: &ViewResources) -> u64 {
 fn of_body(body: &BodyView) -> u64 {
     let clouds = body.clouds.as_ref().map_or(0, CloudHistory::resident_bytes);
     let shadows = body.shadows.as_ref().map_or(0, ShadowMap::resident_bytes);
-    body.ground.resident_bytes() + body.life.resident_bytes() + shadows + clouds
+    let planting = body.planting.buffer.size();
+    body.ground.resident_bytes() + body.life.resident_bytes() + planting + shadows + clouds
 }

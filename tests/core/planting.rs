@@ -419,3 +419,21 @@ fn objects_are_there_once_in_parts_and_with_copies_and_images() {
     let [before, after] = planets.map(|planet| Revision::try_new(Arc::new(planet)).unwrap());
     assert_eq!(after.changes_since(&before), Stages::of(&[Stage::Life]));
 }
+
+#[test]
+fn placed_objects_that_are_larger_than_any_that_grows_are_hit_all_the_same() {
+    let place = at(20.0, 30.0);
+    let terrain = Arc::new(terrain(level(vec![named("Palm", 200.0, "b")], vec![object("Palm", 4.0, 0.0, place)])));
+    let [one] = terrain.instances(place.direction(), 90.0).unwrap()[..] else { panic!("one object") };
+    assert_eq!(one.size_m, 40.0);
+    let mut patch = ObjectPatch::new(terrain);
+    let over = |height_m: f64| one.foot_planet_m(RADIUS_M) + one.axis_planet * height_m;
+    let heights_m: Vec<f64> = (1..80).map(|step| 0.5 * f64::from(step)).collect();
+    let is_met = |height_m: &f64| patch.contact(&Capsule::sphere(over(*height_m), 0.3), 0.0).is_some();
+    let high_m = heights_m.into_iter().filter(is_met).fold(0.0, f64::max);
+    assert!(high_m > 15.0, "the trunk ends at {high_m} m");
+    // What flies by at that height meets it, too.
+    let aside = one.axis_planet.any_orthonormal_vector();
+    let far = Capsule::sphere(over(high_m) + aside * 150.0, 0.3);
+    assert!(patch.sweep(&far, aside * -300.0, 0.01).is_some());
+}

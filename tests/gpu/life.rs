@@ -235,7 +235,7 @@ fn the_canopy_from_afar_has_the_colour_and_the_light_of_its_objects() {
     for (name, most_color, most_light) in [
         ("Broadleaf tree", 1.05, 1.2),
         // From right above under a high sun one sees more of the bright ground between conifers. To be brought down.
-        ("Conifer", 1.12, 1.55),
+        ("Conifer", 1.12, 1.35),
         ("Shrub", 1.03, 1.06),
         ("Grass", 1.06, 1.15),
         ("Boulder", 1.03, 1.06),

@@ -311,7 +311,7 @@ fn skipped(list: &[&'static str], tool: &Tool) -> Vec<&'static str> {
     let stamp: &[&'static str] = if tool.is_stamp() { &[] } else { &OF_STAMPS };
     let fades: &[&'static str] = match tool {
         Tool::River(_) => &["softness"],
-        Tool::Object(_) => &["softness", "raggedness"],
+        Tool::Object(_) => &["radius_km", "softness", "raggedness"],
         _ => &[],
     };
     let mask: &[&'static str] = if tool.reads_mask() { &[] } else { &OF_MASKED };

@@ -84,7 +84,7 @@ impl ObjectPatch {
     /// A patch that keeps 16 MiB of objects. It measures the forms of all solid populations first, which takes some
     /// milliseconds for each.
     pub fn new(terrain: Arc<Terrain>) -> Self {
-        let forms = forms::of_planet(terrain.planet()).into();
+        let forms = forms::of_terrain(&terrain).into();
         Self::with_forms(terrain, forms)
     }
 

@@ -42,7 +42,7 @@ fn site() -> &'static Site {
         let planet =
             Planet { radius_km: RADIUS_M / 1000.0, life: life.collect(), water: None, layers, ..Planet::default() };
         let terrain = Arc::new(Terrain::try_new(Arc::new(planet)).unwrap());
-        let forms = forms::of_planet(terrain.planet());
+        let forms = forms::of_terrain(&terrain);
         let middle = LatLon::from_degrees(20.0, 30.0).direction();
         let solid = |instance: crate::life::Instance| {
             let form = forms.iter().find(|form| form.placement.index == instance.population).unwrap();

@@ -51,25 +51,27 @@ impl Planet {
 
 impl GroundEdits {
     /// Edits follow populations that were changed: those that name a population which got another name take it over,
-    /// those of one that is gone go, too.
+    /// those of one that is gone go, too. While a name is typed it may be empty or that of another population for a
+    /// moment: then its edits keep the name that they have, and take over the next one.
     pub fn follow_populations(&mut self, before: &[Population], after: &[Population]) {
-        let has = |name: &str| after.iter().any(|population| population.name == name);
-        let strangers: Vec<usize> = (0..self.len())
-            .filter(|index| {
-                let name = self.get(*index).and_then(GroundEdit::painted_population);
-                name.is_some_and(|name| !has(name))
-            })
-            .collect();
-        for index in strangers.into_iter().rev() {
-            let name = self.get(index).and_then(GroundEdit::painted_population);
-            let place = |name: &str| before.iter().position(|population| population.name == name);
-            // While its name is typed anew, a population has none for a moment.
-            let at = name.and_then(|name| place(name).or_else(|| place("")));
-            let renamed = at.filter(|_| before.len() == after.len()).and_then(|at| after.get(at));
-            match (renamed, self.get_mut(index).and_then(GroundEdit::population_mut)) {
-                (Some(renamed), Some(name)) if !renamed.name.is_empty() => name.clone_from(&renamed.name),
+        let count = |list: &[Population], name: &str| list.iter().filter(|population| population.name == name).count();
+        let is_name = |list: &[Population], name: &str| !name.is_empty() && count(list, name) == 1;
+        let changed = || before.iter().zip(after).position(|(old, new)| old.name != new.name);
+        let changed = if before.len() == after.len() { changed() } else { None };
+        let is_typed = before.iter().any(|population| !is_name(before, &population.name));
+        for index in (0..self.len()).rev() {
+            let Some(name) = self.get(index).and_then(GroundEdit::painted_population) else { continue };
+            // Edits of one whose name is being typed are known to neither list.
+            let is_lost = count(before, name) == 0 && count(after, name) == 0;
+            let own = changed.filter(|at| {
+                before[*at].name == name && is_name(before, name) || is_lost && !is_name(before, &before[*at].name)
+            });
+            let new = own.and_then(|at| after.get(at)).map(|population| population.name.clone());
+            match (new, self.get_mut(index).and_then(GroundEdit::population_mut)) {
+                (Some(new), Some(name)) if is_name(after, &new) => *name = new,
                 (Some(_), _) => {}
-                (None, _) => drop(self.remove(index)),
+                (None, Some(name)) if count(after, name) == 0 && !(is_lost && is_typed) => drop(self.remove(index)),
+                (None, _) => {}
             }
         }
     }
@@ -104,7 +106,20 @@ mod tests {
         assert_eq!(painted(&edits), ["Elm", "all", "Fern", "Elm"]);
         edits.follow_populations(&steps[4], &named(&["Fern"]));
         assert_eq!(painted(&edits), ["all", "Fern"]);
+        // A name that is another's for a moment takes no strokes over, nor does a list that changes meanwhile.
+        let mut edits: GroundEdits = ["Elm", "Elm 2"].map(stroke).into_iter().collect();
+        for step in
+            [["Elm", "Elm 2"], ["Elm", "Elm "], ["Elm", "Elm"], ["Elm", "Ash"]].map(|names| named(&names)).windows(2)
+        {
+            edits.follow_populations(&step[0], &step[1]);
+        }
+        assert_eq!(painted(&edits), ["Elm", "Ash"]);
+        edits.follow_populations(&named(&["Elm", "Ash"]), &named(&["Elm", ""]));
+        edits.follow_populations(&named(&["Elm", ""]), &named(&["Elm", "", "Fern"]));
+        edits.follow_populations(&named(&["Elm", "", "Fern"]), &named(&["Elm", "Fir", "Fern"]));
+        assert_eq!(painted(&edits), ["Elm", "Fir"]);
         // Strokes of another planet.
+        let mut edits: GroundEdits = ["", "Fern"].map(stroke).into_iter().collect();
         edits.push(stroke("Palm"));
         edits.follow_populations(&named(&["Fern"]), &named(&["Fern"]));
         assert_eq!(painted(&edits), ["all", "Fern"]);

@@ -133,6 +133,25 @@ impl Edits {
         placed
     }
 
+    /// The greatest factor on the height of a population at which one of its objects is placed by hand; 0 if none is.
+    /// `is_first`: whether it is the first population.
+    pub(crate) fn largest_placed(&self, population: PopulationId, is_first: bool) -> f64 {
+        let sizes = self.roster.edits().map(|edit| match edit.paint() {
+            Some(Paint::Object { population: of, size, .. }) if of.map_or(is_first, |of| of == population) => {
+                edit.arcs().iter().fold(0.0, |most: f64, arc| most.max(size * arc.scale * arc.widths[0]))
+            }
+            _ => 0.0,
+        });
+        sizes.fold(0.0, f64::max)
+    }
+
+    /// Whether an edit changes the share of its density that a population has.
+    #[cfg(feature = "render")]
+    pub(crate) fn plants_by_share(&self) -> bool {
+        let places = |edit: &CompiledEdit| matches!(edit.paint(), Some(Paint::Object { .. }));
+        self.roster.edits().any(|edit| edit.is_life() && !places(edit))
+    }
+
     /// The strokes of life: the population of each, None for all, and the density that it leads to.
     #[cfg(feature = "render")]
     pub(crate) fn life_strokes(&self) -> impl Iterator<Item = (Option<PopulationId>, f64)> {

@@ -248,7 +248,12 @@ impl CompiledTool {
 
     /// Radii to which it reaches.
     pub(super) fn reach(&self) -> f64 {
-        if let Self::Crater { .. } = self { EJECTA } else { 1.0 }
+        match self {
+            Self::Crater { .. } => EJECTA,
+            // An object stands at a point.
+            Self::Paint(Paint::Object { .. }) => 1e-6,
+            _ => 1.0,
+        }
     }
 
     pub(super) fn hash(&self, hash: &mut Hash) {

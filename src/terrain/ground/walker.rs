@@ -65,12 +65,12 @@ impl Default for WalkerBody {
 }
 
 impl WalkerBody {
-    /// Way to a place around, the farther the higher its number: a spiral of the golden angle, two places on the area of
-    /// the body.
+    /// Way to a place around, the farther the higher its number: a spiral of the golden angle, with
+    /// two places on the area of the body.
     fn place_around(&self, up: DVec3, number: usize) -> DVec3 {
         let (number, (east, north)) = (number as f64 + 1.0, up.any_orthonormal_pair());
         let (sin, cos) = libm::sincos(2.399_963 * number);
-        (east * cos + north * sin) * (self.radius_m * number.sqrt())
+        (east * cos + north * sin) * (0.7 * self.radius_m * number.sqrt())
     }
 
     /// A person on a planet: with the gravity that its radius gives it if it is as dense as the Earth.
@@ -147,15 +147,21 @@ impl Walker {
         };
         let first_m = over(patch.ground(), up);
         let mut walker = Self::new(body, first_m);
-        for number in 0..MOST_SLIDES + MOST_PLACES {
+        let mut slid = None;
+        for number in 0..=MOST_SLIDES + MOST_PLACES {
             let aside_m = patch.way_aside(&body.capsule_at(walker.feet_planet_m), body.skin_m);
             if aside_m == DVec3::ZERO {
                 break;
             }
-            // Between objects that push it to and fro it looks around, farther and farther.
+            // Between objects that push it to and fro it looks around, farther and farther; without a free place it stays
+            // where it was pushed to.
             let place_m = match number.checked_sub(MOST_SLIDES) {
                 None => walker.feet_planet_m + aside_m,
-                Some(number) => first_m + body.place_around(up, number),
+                Some(MOST_PLACES) => slid.unwrap_or(first_m),
+                Some(number) => {
+                    slid.get_or_insert(walker.feet_planet_m);
+                    first_m + body.place_around(first_m.normalize_or(up), number)
+                }
             };
             up = place_m.normalize_or(up);
             walker.feet_planet_m = over(patch.ground(), up);
