@@ -7,7 +7,6 @@ use crate::life::canopy::CanopyLayer;
 use crate::planet::Population;
 use crate::render::scene::Body;
 use glam::{DVec3, Vec3};
-use std::cmp::Ordering;
 
 /// Most populations that count for the canopy of a biome: those that cover most.
 pub(crate) const LAYERS: usize = 4;
@@ -87,8 +86,8 @@ impl CanopyRows {
     pub(crate) fn of_biome(&self, key: char) -> (usize, [[f32; 4]; ROWS]) {
         let stands = |layer: &&Layer| layer.biomes.is_empty() || layer.biomes.contains(key);
         let by_area = |layers: &mut Vec<Layer>| {
-            layers
-                .sort_by(|a, b| (b.is_planted, b.area).partial_cmp(&(a.is_planted, a.area)).unwrap_or(Ordering::Equal))
+            let more = |a: &Layer, b: &Layer| b.is_planted.cmp(&a.is_planted).then(b.area.total_cmp(&a.area));
+            layers.sort_by(more);
         };
         let mut layers: Vec<Layer> = self.0.iter().filter(stands).cloned().collect();
         by_area(&mut layers);
