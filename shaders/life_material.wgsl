@@ -146,8 +146,8 @@ fn leaves(least_m: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial
     );
 }
 
-// Needles on the blades of a conifer, which are boughs: strokes that lie side by side along each twig, some pixels apart.
-// They stand so close that gaps show near the eye alone.
+// Needles on the blades of a conifer, which are boughs: strokes that lie side by side along each twig, some pixels
+// apart. They stand so close that gaps show near the eye alone.
 fn needles(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
     let clear = 1.0 - smoothstep(0.012, 0.035, pixel_m);
     if clear <= 0.0 { return PLAIN; }

@@ -102,8 +102,8 @@ fn own_reach_m(placement: &Placement, quality: Quality) -> f64 {
     (placement.population().height_m * heights).min(by_count_m)
 }
 
-/// Distances up to which objects of each population are drawn among all: none beyond a denser population of like size in
-/// its biomes, because single trees would stand on a forest that is a canopy already.
+/// Distances up to which objects of each population are drawn among all: none beyond a denser population of like size
+/// in its biomes, because single trees would stand on a forest that is a canopy already.
 fn reaches_m(placements: &[Placement], quality: Quality) -> Vec<f64> {
     let area = |population: &Population| population.per_hectare * population.height_m * population.height_m;
     let hides = |own: &Population, other: &Population| {

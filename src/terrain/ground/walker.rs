@@ -153,8 +153,8 @@ impl Walker {
             if aside_m == DVec3::ZERO {
                 break;
             }
-            // Between objects that push it to and fro it looks around, farther and farther; without a free place it stays
-            // where it was pushed to.
+            // Between objects that push it to and fro it looks around, farther and farther; without a free place it
+            // stays where it was pushed to.
             let place_m = match number.checked_sub(MOST_SLIDES) {
                 None => walker.feet_planet_m + aside_m,
                 Some(MOST_PLACES) => slid.unwrap_or(first_m),
