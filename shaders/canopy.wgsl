@@ -5,7 +5,7 @@
 #include "neighbours.wgsl"
 #include "stands.wgsl"
 #include "crowns.wgsl"
-#include "life_material.wgsl"
+#include "hues.wgsl"
 #include "planting.wgsl"
 
 // A population at a pixel.

@@ -2,6 +2,7 @@
 #include "object_shadow.wgsl"
 #include "neighbours.wgsl"
 #include "life_material.wgsl"
+#include "hues.wgsl"
 #include "life_instance.wgsl"
 
 @group(1) @binding(0) var<storage, read> instances: array<Instance>;

@@ -13,6 +13,8 @@ const GRAIN_M: vec3f = vec3f(0.45, 0.13, 0.035);
 const GRAIN_HEIGHT: f32 = 0.10;
 // Width of a leaf, metres.
 const LEAF_M: f32 = 0.09;
+// How leaves and twigs of one object differ in colour.
+const LEAF_TINTS: vec3f = vec3f(0.45, 0.40, 0.25);
 // Distance from one needle to the next, and width of a twig with needles, metres.
 const NEEDLES_M: f32 = 0.014;
 const TWIG_M: f32 = 0.18;
@@ -36,20 +38,6 @@ const PLAIN: ObjectMaterial = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
 const FURROWS_MEAN: f32 = 0.73;
 const CRACKS_MEAN: f32 = 0.14;
 const EDGE_MEAN: f32 = 0.05;
-
-// Spread of the colour of leaves from one object to the next: some are yellower, some bluer.
-const HUES: vec3f = vec3f(0.34, 0.10, -0.16);
-
-// Strength of stands (stands.wgsl) in the colour: in its brightness, and in its hue as a share of that spread.
-const STANDS: f32 = 0.30;
-const STAND_HUES: f32 = 0.6;
-
-// Colour of one object of a mean colour, by a random number from 0 to 1. Grey ones have no hue.
-fn hue_of_one(mean: vec3f, random: f32) -> vec3f {
-    let most = max(mean.x, max(mean.y, mean.z));
-    let colorful = 1.0 - min(mean.x, min(mean.y, mean.z)) / max(most, 1e-6);
-    return mean * (1.0 + (2.0 * random - 1.0) * colorful * HUES);
-}
 
 fn lattice_value(cell: vec3i) -> f32 { return unit_from_hash(hash3(vec3u(cell))).x; }
 
@@ -126,16 +114,16 @@ fn leaves_of(width_m: f32, p_m: vec3f) -> ObjectMaterial {
         }
     }
     let edge = smoothstep(0.10, 0.45, nearest);
-    let tint = 1.0 + vec3f(0.45, 0.40, 0.25) * (found.x - 0.5) + 0.25 * (EDGE_MEAN - edge);
+    let tint = 1.0 + LEAF_TINTS * (found.x - 0.5) + 0.25 * (EDGE_MEAN - edge);
     return ObjectMaterial(tint, 0.0, found - 0.5, smoothstep(0.10, 0.30, nearest));
 }
 
-// Leaves on the blades of a crown, which are wider than leaves: single ones near the eye, `least_m` wide, farther away
-// clusters that are some pixels wide, as far as they are narrower than blades.
-fn leaves(least_m: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
-    let octave = log2(max(CLUSTER_PIXELS * pixel_m / least_m, 1.0));
-    let width_m = least_m * exp2(floor(octave));
-    let clear = 1.0 - smoothstep(0.5, 1.0, 0.5 * least_m * exp2(octave) / (WIDEST_CLUSTER * size_m));
+// Leaves on the blades of a crown, which are wider than leaves: single ones near the eye, farther away clusters that
+// are some pixels wide, as far as they are narrower than blades.
+fn leaves(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
+    let octave = log2(max(CLUSTER_PIXELS * pixel_m / LEAF_M, 1.0));
+    let width_m = LEAF_M * exp2(floor(octave));
+    let clear = 1.0 - smoothstep(0.5, 1.0, 0.5 * LEAF_M * exp2(octave) / (WIDEST_CLUSTER * size_m));
     if clear <= 0.0 { return PLAIN; }
     let fine = leaves_of(width_m, p_m);
     let coarse = leaves_of(2.0 * width_m, p_m);
@@ -151,21 +139,20 @@ fn leaves(least_m: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial
 fn needles(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
     let clear = 1.0 - smoothstep(0.012, 0.035, pixel_m);
     if clear <= 0.0 { return PLAIN; }
-    let twig = leaves_of(TWIG_M, p_m);
+    let turn = leaves_of(TWIG_M, p_m).tilt;
     let octave = log2(max(CLUSTER_PIXELS * pixel_m / NEEDLES_M, 1.0));
-    let across = dot(p_m, normalize(twig.tilt + vec3f(0.013, 0.007, 0.011))) / (NEEDLES_M * exp2(floor(octave)));
+    let across = dot(p_m, normalize(turn + vec3f(0.013, 0.007, 0.011))) / (NEEDLES_M * exp2(floor(octave)));
     let waves = abs(fract(vec2f(across, 0.5 * across)) - 0.5) * 2.0;
     let gaps = smoothstep(vec2f(0.4), vec2f(0.8), waves);
-    return ObjectMaterial(
-        mix(vec3f(1.0), twig.tint, clear), 0.0, 0.5 * clear * twig.tilt, clear * mix(gaps.x, gaps.y, fract(octave)),
-    );
+    let tint = 1.0 + clear * LEAF_TINTS * turn.x;
+    return ObjectMaterial(tint, 0.0, 0.5 * clear * turn, clear * mix(gaps.x, gaps.y, fract(octave)));
 }
 
 // `leaf`: share of the second colour. `p_m`: place in the form.
 fn object_material(kind: u32, leaf: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     if kind == ROCK { return rock(p_m, size_m, pixel_m); }
     if kind >= LEAFY && leaf < 0.5 { return bark(p_m, pixel_m); }
-    if kind == LEAFY { return leaves(LEAF_M, p_m, size_m, pixel_m); }
+    if kind == LEAFY { return leaves(p_m, size_m, pixel_m); }
     if kind == NEEDLED { return needles(p_m, pixel_m); }
     return PLAIN;
 }

@@ -82,6 +82,10 @@ pub(super) unsafe fn optional_output<'a, T>(first: *mut T, count: usize, name: &
     if first.is_null() { Ok(&mut []) } else { unsafe { output(first, count, name) } }
 }
 
+pub(super) fn at_least_zero(value_m: f64, name: &str) -> Result<f64, String> {
+    if value_m >= 0.0 && value_m.is_finite() { Ok(value_m) } else { Err(format!("{name} is {value_m}; use 0 or more")) }
+}
+
 fn checked<T>(first: *const T, count: usize, name: &str) -> Result<(), String> {
     if first.is_null() {
         return Err(format!("{name} is NULL"));

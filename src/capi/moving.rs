@@ -1,11 +1,11 @@
 //! What a game asks at each moment: clouds and waves at a time, chunks of ground for physics, balls and capsules
 //! against the ground.
 
-use super::answers::{answer, input, output};
+use super::answers::{answer, at_least_zero, input, optional_output, output};
 use super::{SCRATCH, TellusPlanet, directions_of, valid};
 use crate::clouds::CloudField;
 use crate::sea::{Column, Waves};
-use crate::terrain::{Capsule, ChunkGrid, Wanted};
+use crate::terrain::{Capsule, ChunkGrid, Contact, Wanted};
 use glam::DVec3;
 
 /// Most cells along a side of a chunk.
@@ -148,18 +148,14 @@ pub unsafe extern "C" fn tellus_chunk(
         let count = (cells as usize + 1).pow(2);
         // SAFETY: the caller's promise.
         let positions_m = unsafe { output(positions_m, 3 * count, "positions_m") }?;
-        let normals = if normals.is_null() {
-            None
-        } else {
-            // SAFETY: the caller's promise.
-            Some(unsafe { output(normals, 3 * count, "normals") }?)
-        };
+        // SAFETY: the caller's promise.
+        let normals = unsafe { optional_output(normals, 3 * count, "normals") }?;
         let grid = ChunkGrid::on_ground(terrain, dir, side_m, cells);
         let chunk = SCRATCH.with_borrow_mut(|scratch| grid.chunk(terrain, [column, row], scratch));
         for (position, found) in positions_m.as_chunks_mut().0.iter_mut().zip(&chunk.positions_m) {
             *position = found.to_array();
         }
-        for (normal, found) in normals.into_iter().flat_map(|normals| normals.as_chunks_mut().0).zip(&chunk.normals) {
+        for (normal, found) in normals.as_chunks_mut().0.iter_mut().zip(&chunk.normals) {
             *normal = found.to_array();
         }
         Ok(true)
@@ -188,24 +184,34 @@ pub unsafe extern "C" fn tellus_sweep(
         let terrain = &unsafe { valid(planet) }?.terrain;
         // SAFETY: the caller's promise.
         let (capsule, motion_m, contact) =
-            unsafe { (capsule_of(ends_m, radius_m)?, input(motion_m, 3, "motion_m")?, output(contact, 1, "contact")?) };
-        let motion_m = DVec3::from_slice(motion_m);
-        if !motion_m.is_finite() {
-            return Err("motion_m is not finite".to_owned());
-        }
-        if !(skin_m >= 0.0 && skin_m.is_finite()) {
-            return Err(format!("skin_m is {skin_m}; use 0 or more"));
-        }
+            unsafe { (capsule_of(ends_m, radius_m)?, motion_of(motion_m)?, output(contact, 1, "contact")?) };
+        let skin_m = at_least_zero(skin_m, "skin_m")?;
         let sweep = SCRATCH.with_borrow_mut(|scratch| terrain.sweep_with(&capsule, motion_m, skin_m, scratch));
         let Some(sweep) = sweep else { return Ok(0) };
-        contact[0] = TellusContact {
-            share: sweep.share,
-            gap_m: sweep.contact.gap_m,
-            point_m: sweep.contact.point_planet_m.to_array(),
-            normal: sweep.contact.normal_planet.to_array(),
-        };
+        contact[0] = TellusContact::of(sweep.share, &sweep.contact);
         Ok(1)
     })
+}
+
+impl TellusContact {
+    pub(super) fn of(share: f64, found: &Contact) -> Self {
+        Self {
+            share,
+            gap_m: found.gap_m,
+            point_m: found.point_planet_m.to_array(),
+            normal: found.normal_planet.to_array(),
+        }
+    }
+}
+
+/// The motion of a capsule.
+///
+/// # Safety
+/// `motion_m` is NULL or holds 3 numbers.
+pub(super) unsafe fn motion_of(motion_m: *const f64) -> Result<DVec3, String> {
+    // SAFETY: the caller's promise.
+    let motion_m = DVec3::from_slice(unsafe { input(motion_m, 3, "motion_m") }?);
+    if motion_m.is_finite() { Ok(motion_m) } else { Err("motion_m is not finite".to_owned()) }
 }
 
 /// A capsule between two ends.

@@ -1,10 +1,10 @@
 //! Objects on the ground: lists of them, and what bodies hit of them.
 
-use super::answers::{answer, input, optional_output, output};
-use super::moving::{TellusContact, capsule_of};
+use super::answers::{answer, at_least_zero, input, optional_output, output};
+use super::moving::{TellusContact, capsule_of, motion_of};
 use super::{TellusPlanet, directions_of, valid};
 use crate::life::{Instance, ObjectId, ObjectPatch};
-use crate::terrain::{Contact, RayLimits};
+use crate::terrain::RayLimits;
 use glam::DVec3;
 use std::ffi::c_char;
 
@@ -194,7 +194,7 @@ pub unsafe extern "C" fn tellus_objects_contact(
         };
         let within_m = at_least_zero(within_m, "within_m")?;
         let Some(met) = patch.contact(&capsule, within_m) else { return Ok(0) };
-        contact[0] = contact_of(0.0, &met.hit);
+        contact[0] = TellusContact::of(0.0, &met.hit);
         object.fill(TellusObject::of(met.object));
         Ok(1)
     })
@@ -218,16 +218,12 @@ pub unsafe extern "C" fn tellus_objects_sweep(
         // SAFETY: the caller's promise.
         let patch = unsafe { valid_objects(objects) }?;
         // SAFETY: the caller's promise.
-        let (capsule, motion_m) = unsafe { (capsule_of(ends_m, radius_m)?, input(motion_m, 3, "motion_m")?) };
+        let (capsule, motion_m) = unsafe { (capsule_of(ends_m, radius_m)?, motion_of(motion_m)?) };
         // SAFETY: the caller's promise.
         let (contact, object) = unsafe { (output(contact, 1, "contact")?, optional_output(object, 1, "object")?) };
-        let motion_m = DVec3::from_slice(motion_m);
-        if !motion_m.is_finite() {
-            return Err("motion_m is not finite".to_owned());
-        }
         let skin_m = at_least_zero(skin_m, "skin_m")?;
         let Some(met) = patch.sweep(&capsule, motion_m, skin_m) else { return Ok(0) };
-        contact[0] = contact_of(met.hit.share, &met.hit.contact);
+        contact[0] = TellusContact::of(met.hit.share, &met.hit.contact);
         object.fill(TellusObject::of(met.object));
         Ok(1)
     })
@@ -368,19 +364,6 @@ impl TellusObject {
     fn of(found: ObjectId) -> Self {
         Self { id: found.id, seed: found.seed, reserved: 0 }
     }
-}
-
-fn contact_of(share: f64, found: &Contact) -> TellusContact {
-    TellusContact {
-        share,
-        gap_m: found.gap_m,
-        point_m: found.point_planet_m.to_array(),
-        normal: found.normal_planet.to_array(),
-    }
-}
-
-fn at_least_zero(value_m: f64, name: &str) -> Result<f64, String> {
-    if value_m >= 0.0 && value_m.is_finite() { Ok(value_m) } else { Err(format!("{name} is {value_m}; use 0 or more")) }
 }
 
 /// # Safety

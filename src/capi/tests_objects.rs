@@ -134,7 +134,7 @@ fn objects_are_hit_as_in_the_library_until_they_are_hidden() {
         assert_eq!(tellus_objects_hide(objects, named, 1), 0);
         let more_m = tellus_objects_raycast(objects, above.as_ptr(), down.as_ptr(), 20.0, null_mut(), null_mut());
         assert!(more_m > away_m, "{more_m}");
-        // Of a population that this planet does not have.
+        // The planet does not have the population of this one.
         let stranger = TellusObject { id: 3, seed: 77, reserved: 0 };
         assert_eq!(tellus_objects_hide(objects, &raw const stranger, 1), 1);
         let mut hidden = [TellusObject { id: 0, seed: 0, reserved: 0 }; 3];

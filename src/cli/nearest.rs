@@ -200,7 +200,7 @@ fn tell(terrain: &Terrain, start: DVec3, found: &Found, as_json: bool) -> Result
 fn of_object(planet: &Planet, object: &Instance) -> Value {
     let (kind, scale) = instances::kind_and_scale(planet, object);
     json!({
-        // A number of JSON does not hold all bits of an id.
+        // JSON numbers do not hold all bits of an id.
         "id": object.id.to_string(),
         "kind": kind,
         "height_m": object.base_m,

@@ -136,57 +136,55 @@ impl Canopies {
         Self { populations: planet.life.len(), layers, edits: terrain.life_edits().cloned() }
     }
 
-    /// Share of its greatest density that a population has at a direction, whose sample is given.
-    fn share(&self, layer: &Layer, dir: DVec3, sample: &Sample) -> f64 {
-        let Some(edits) = &self.edits else { return layer.suitability.at(sample) };
-        let mut planted = Vec::new();
-        edits.planted(Some(layer.id), &[dir], &mut planted);
-        layer.suitability.planted(sample, planted.first().copied().unwrap_or(Planting::NONE))
+    /// Share of its greatest density that each population has at a direction, whose sample is given, the lowest first.
+    fn shares(&self, dir_planet: DVec3, sample: &Sample) -> Vec<f64> {
+        let (dirs, mut planted) = ([dir_planet.normalize_or(DVec3::Z)], Vec::new());
+        let mut share = |layer: &Layer| {
+            let Some(edits) = &self.edits else { return layer.suitability.at(sample) };
+            edits.planted(Some(layer.id), &dirs, &mut planted);
+            layer.suitability.planted(sample, planted.first().copied().unwrap_or(Planting::NONE))
+        };
+        self.layers.iter().map(&mut share).collect()
     }
 
     /// Objects on a hectare at a direction, whose sample is given, for each population of the planet: the mean over its
     /// groups.
     pub fn densities_per_hectare(&self, dir_planet: DVec3, sample: &Sample) -> Vec<f64> {
-        let (dir, mut densities) = (dir_planet.normalize_or(DVec3::Z), vec![0.0; self.populations]);
-        for layer in &self.layers {
-            densities[layer.population] = self.share(layer, dir, sample) * layer.suitability.population.per_hectare;
+        let mut densities = vec![0.0; self.populations];
+        for (layer, share) in self.layers.iter().zip(self.shares(dir_planet, sample)) {
+            densities[layer.population] = share * layer.suitability.population.per_hectare;
         }
         densities
-    }
-
-    /// What each population covers at a direction, whose sample is given, the lowest first.
-    fn covered<'a>(&'a self, dir_planet: DVec3, sample: &'a Sample) -> impl Iterator<Item = (f64, &'a CanopyLayer)> {
-        let dir = dir_planet.normalize_or(DVec3::Z);
-        self.layers.iter().map(move |layer| (layer.covers.covered(self.share(layer, dir, sample)), &layer.covers))
     }
 
     /// Mean colour (albedo, linear sRGB) of what is seen of a place from far above, with ground of a colour: higher
     /// objects hide lower ones. `sample`: that of the direction.
     pub fn albedo(&self, dir_planet: DVec3, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
-        self.covered(dir_planet, sample).fold(self.littered(dir_planet, sample, ground), |below, (cover, layer)| {
-            std::array::from_fn(|c| below[c] + (layer.color[c] - below[c]) * cover)
-        })
-    }
-
-    /// Colour of the ground at a sample with what has fallen on it.
-    fn littered(&self, dir_planet: DVec3, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
-        let (dir, mut bare, mut sum, mut color) = (dir_planet.normalize_or(DVec3::Z), 1.0, 0.0, [0.0; 3]);
-        for layer in self.layers.iter().filter(|layer| layer.covers.litter.1 > 0.0) {
-            let share = layer.covers.littered(self.share(layer, dir, sample));
-            bare *= 1.0 - share;
-            sum += share;
-            color = std::array::from_fn(|c| color[c] + share * layer.covers.litter.0[c]);
+        let shares = self.shares(dir_planet, sample);
+        let layers = || self.layers.iter().map(|layer| &layer.covers).zip(&shares);
+        let mixed = |below: [f64; 3], above: [f64; 3], share: f64| -> [f64; 3] {
+            std::array::from_fn(|c| below[c] + (above[c] - below[c]) * share)
+        };
+        // What has fallen lies on the ground, in the mean of its colours.
+        let (mut bare, mut sum, mut fallen) = (1.0, 0.0, [0.0; 3]);
+        for (covers, share) in layers() {
+            let littered = covers.littered(*share);
+            bare *= 1.0 - littered;
+            sum += littered;
+            fallen = std::array::from_fn(|c| fallen[c] + littered * covers.litter.0[c]);
         }
-        if sum <= 0.0 { ground } else { std::array::from_fn(|c| bare * ground[c] + (1.0 - bare) * color[c] / sum) }
+        let floor = if sum > 0.0 { mixed(ground, fallen.map(|channel| channel / sum), 1.0 - bare) } else { ground };
+        layers().fold(floor, |below, (covers, share)| mixed(below, covers.color, covers.covered(*share)))
     }
 
     /// What stands at a direction, whose sample is given.
     pub fn at(&self, dir_planet: DVec3, sample: &Sample) -> Canopy {
         let (mut open, mut covered, mut height_m) = (1.0, 0.0, 0.0);
-        for (cover, layer) in self.covered(dir_planet, sample) {
+        for (Layer { covers, .. }, share) in self.layers.iter().zip(self.shares(dir_planet, sample)) {
+            let cover = covers.covered(share);
             open *= 1.0 - cover;
             covered += cover;
-            height_m += cover * layer.height_m;
+            height_m += cover * covers.height_m;
         }
         Canopy { cover: 1.0 - open, height_m: if covered > 0.0 { height_m / covered } else { 0.0 } }
     }

@@ -4,7 +4,7 @@ use super::hash::Dice;
 use crate::planet::{Planet, Population};
 use crate::sphere::{Face, NodeId, cube};
 use glam::DVec3;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Objects of a full cell, about.
 const CELL_OBJECTS: f64 = 100.0;
@@ -81,6 +81,11 @@ impl Grid {
         let wanted = self.most_per_m2 * self.area_m2(cell);
         let count = wanted.sqrt().ceil().clamp(1.0, 512.0);
         (count as u32, (wanted / (count * count)).min(1.0))
+    }
+
+    /// Mean area of a cell.
+    pub(super) fn mean_cell_m2(&self) -> f64 {
+        4.0 * PI * self.radius_m * self.radius_m / (6.0 * f64::from(self.level).exp2().powi(2))
     }
 
     /// Area of a cell: that of the four-sided figure between its corners.

@@ -53,12 +53,9 @@ impl Terrain {
         let mut best: Option<NearestObject> = None;
         let mut radius_m = (FIRST / (most_per_m2 * PI)).sqrt().max(1.0);
         loop {
-            radius_m = radius_m.min(within_m);
-            // A disc of the sphere has at most the area of a flat one, and never more than the sphere's.
-            let area_m2 = (PI * radius_m * radius_m).min(4.0 * PI * planet_m * planet_m);
-            if most_per_m2 * area_m2 > Self::MOST_INSTANCES as f64 {
-                return Err(TooMany { candidates: (most_per_m2 * area_m2) as u64, most: Self::MOST_INSTANCES });
-            }
+            // Beyond what is found already nothing is nearer.
+            radius_m = radius_m.min(best.map_or(within_m, |best| best.away_m));
+            TooMany::check(&placements, radius_m)?;
             let ring = placements.iter().flat_map(|placement| {
                 let cells = placement.grid.cells_within(dir, radius_m).into_iter();
                 cells.map(move |cell| (placement, cell))

@@ -10,7 +10,7 @@ use crate::terrain::edits::{Edits, Placed, Planting, PopulationId};
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
 use std::collections::HashSet;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// A population of a planet, ready to be placed.
@@ -44,7 +44,7 @@ impl Placement {
         populations.map(|(index, population)| Self::new(planet, population, index as u16)).collect()
     }
 
-    /// Those of some populations that are on, by their indices; of all if none is named.
+    /// Populations of a planet that are on: some, by their indices, or all if none is named.
     pub(super) fn of(planet: &Planet, populations: &[u16]) -> Vec<Self> {
         let mut all = Self::all(planet);
         all.retain(|placement| populations.is_empty() || populations.contains(&placement.index));
@@ -91,7 +91,7 @@ impl Placement {
     ) -> Vec<Instance> {
         let PlacementScratch { candidates, planted, dirs, samples, scratch } = memory;
         let offer = soil.and_then(|soil| soil.offered(&self.suitability));
-        let edits = terrain.life_edits().filter(|_| self.edits_key(terrain, cell).is_some());
+        let edits = terrain.life_edits().filter(|edits| edits.touches_life(cell, self.id));
         // It stands nowhere in the node.
         if soil.is_some() && offer.is_none() && edits.is_none() {
             return Vec::new();
@@ -128,25 +128,43 @@ impl Placement {
         });
         let mut placed: Vec<Instance> = placed.collect();
         if let Some(edits) = edits {
-            placed.extend(self.placed_by_hand(terrain, edits, cell));
+            placed.extend(self.placed_by_hand(terrain, edits, cell, memory));
         }
         placed
     }
 
     /// The objects of a cell that are placed by hand.
-    fn placed_by_hand(&self, terrain: &Terrain, edits: &Edits, cell: NodeId) -> Vec<Instance> {
+    fn placed_by_hand(
+        &self,
+        terrain: &Terrain,
+        edits: &Edits,
+        cell: NodeId,
+        memory: &mut PlacementScratch,
+    ) -> Vec<Instance> {
+        let PlacementScratch { dirs, samples, scratch, .. } = memory;
         let mut seen = HashSet::new();
         let placed = edits.placed(cell, (self.id, self.index == 0)).into_iter();
         let placed = placed.map(|placed| (self.grid.placed(cell, placed.dir), placed));
         // Two at one place are one.
-        let placed = placed.filter(|(candidate, _)| seen.insert(candidate.id));
-        let instance = |(candidate, placed): (Candidate, Placed)| {
-            let sample = terrain.sample(placed.dir);
+        let placed: Vec<(Candidate, Placed)> = placed.filter(|(candidate, _)| seen.insert(candidate.id)).collect();
+        dirs.clear();
+        dirs.extend(placed.iter().map(|(_, placed)| placed.dir));
+        samples.clear();
+        samples.resize(dirs.len(), Sample::default());
+        terrain.samples_spaced_into(dirs, 0.0, Wanted::HEIGHT.and_normal(), samples, scratch);
+        let instance = |((candidate, placed), sample): (&(Candidate, Placed), &Sample)| {
             let size_m = self.population().height_m * placed.size;
             let base_m = sample.height_m - self.population().sunk * size_m;
-            Instance { turn_rad: placed.turn_rad, size_m, base_m, ..self.instance(&candidate, 1.0, &sample) }
+            Instance { turn_rad: placed.turn_rad, size_m, base_m, ..self.instance(candidate, 1.0, sample) }
         };
-        placed.map(instance).collect()
+        placed.iter().zip(&*samples).map(instance).collect()
+    }
+
+    /// Objects that may stand within a distance, and at least as many as cells are looked at: what a search costs.
+    pub(super) fn most_within(&self, radius_m: f64) -> f64 {
+        // A disc of the sphere has at most the area of a flat one, and never more than the sphere's.
+        let area_m2 = (PI * radius_m * radius_m).min(4.0 * PI * self.radius_m * self.radius_m);
+        area_m2 * self.most_per_m2().max(1.0 / self.grid.mean_cell_m2())
     }
 
     /// The key of the edits that change where the population stands in a cell. None if none does.

@@ -78,6 +78,15 @@ pub struct TooMany {
     pub most: u64,
 }
 
+impl TooMany {
+    /// Refuses a part in which too many objects of populations may stand.
+    pub(super) fn check(placements: &[Placement], radius_m: f64) -> Result<(), Self> {
+        let candidates = placements.iter().map(|placement| placement.most_within(radius_m)).sum::<f64>() as u64;
+        let most = Terrain::MOST_INSTANCES;
+        if candidates > most { Err(Self { candidates, most }) } else { Ok(()) }
+    }
+}
+
 impl Terrain {
     /// Most objects of one query of [`Terrain::instances`]: 1.4 GB of them.
     pub const MOST_INSTANCES: u64 = 10_000_000;
@@ -103,13 +112,8 @@ impl Terrain {
         takes: &(dyn Fn(DVec3) -> bool + Sync),
     ) -> Result<Vec<Instance>, TooMany> {
         let radius_m = if radius_m > 0.0 { radius_m } else { 0.0 };
-        let planet_m = self.planet().radius_m();
         let placements = Placement::of(self.planet(), populations);
-        let area_m2 = std::f64::consts::PI * radius_m.min(2.0 * planet_m).powi(2);
-        let candidates: f64 = placements.iter().map(|placement| placement.most_per_m2() * area_m2).sum();
-        if candidates > Self::MOST_INSTANCES as f64 {
-            return Err(TooMany { candidates: candidates as u64, most: Self::MOST_INSTANCES });
-        }
+        TooMany::check(&placements, radius_m)?;
         let cells = placements.iter().flat_map(|placement| {
             placement.grid.cells_within(dir, radius_m).into_iter().map(move |cell| (placement, cell))
         });

@@ -130,7 +130,7 @@ pub fn keep(from: &Planet, to: &Planet) -> Option<Planet> {
     keep_parts(from, &locks, &mut kept);
     keep_layers(from, &locks, &mut kept);
     // Edits of populations that are gone go, too.
-    kept.edits.follow_populations(&[], &kept.life);
+    kept.edits.drop_strangers(&kept.life);
     keep_values(from, &locks, &mut kept);
     let notes = kept.editor.get_or_insert_default();
     notes.locks = from.editor.as_ref().map(|notes| notes.locks.clone()).unwrap_or_default();
@@ -182,7 +182,8 @@ fn keep_values(from: &Planet, locks: &Locks, to: &mut Planet) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Clouds, Layer, random};
+    use crate::planet::edits::{EditPoint, LifePaint};
+    use crate::planet::{Clouds, GroundEdit, Layer, Population, Tool, random};
 
     fn path(part: &'static str, field: &'static str) -> ParamPath {
         ParamPath::default().join(part).join(field)
@@ -203,6 +204,26 @@ mod tests {
         assert!(!locks.is_on(&cover) && !locks.hold(&path("star", "tilt_deg")));
         assert!(!toggle(&mut planet, &clouds));
         assert_eq!(planet.editor, None, "no empty notes stay behind");
+    }
+
+    #[test]
+    fn locked_edits_stay_without_those_of_populations_that_are_gone() {
+        let stroke = |population: &str| {
+            let paint = LifePaint { population: population.to_owned(), ..LifePaint::default() };
+            GroundEdit {
+                tool: Tool::Life(paint),
+                points: [EditPoint::default()].into_iter().collect(),
+                ..GroundEdit::default()
+            }
+        };
+        let named = |name: &str| Population { name: name.to_owned(), ..Population::default() };
+        let (mut from, mut to) = (planet(), planet());
+        (from.life, to.life) = (vec![named("Oak"), named("Fern")], vec![named("Fern")]);
+        from.edits = ["Oak", "Fern", ""].map(stroke).into_iter().collect();
+        toggle(&mut from, &ParamPath::default().join("edits"));
+        let kept = keep(&from, &to).unwrap();
+        let names: Vec<_> = kept.edits.iter().map(GroundEdit::painted_population).collect();
+        assert_eq!(names, [Some("Fern"), None]);
     }
 
     #[test]

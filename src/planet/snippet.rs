@@ -58,7 +58,7 @@ pub fn read(source: &str, text: &str) -> Result<Snippet, String> {
         layer.masks.retain(|mask| mask.layer().is_none_or(|name| names.contains(&name)));
     }
     // Strokes of the life tool may be of populations that were not copied.
-    alone.edits.follow_populations(&[], &planet.life);
+    alone.edits.drop_strangers(&planet.life);
     file::checked(source, text, &alone).map_err(told)?;
     let mut fields = Vec::new();
     locate::walk(text, |steps, _| {

@@ -71,7 +71,7 @@ pub(crate) struct BodyView {
     pub(crate) ground: GroundView,
     pub(crate) life: LifeView,
     pub(crate) shadows: Option<ShadowMap>,
-    pub(super) planting: PlantingBuffer,
+    pub(crate) planting: PlantingBuffer,
     /// The clouds of the frames before, if they are kept.
     pub(crate) clouds: Option<CloudHistory>,
     /// What the body needs in this frame.

@@ -25,6 +25,6 @@ fn of_view(view: &ViewResources) -> u64 {
 fn of_body(body: &BodyView) -> u64 {
     let clouds = body.clouds.as_ref().map_or(0, CloudHistory::resident_bytes);
     let shadows = body.shadows.as_ref().map_or(0, ShadowMap::resident_bytes);
-    let planting = body.planting.buffer.size();
+    let planting = body.planting.resident_bytes();
     body.ground.resident_bytes() + body.life.resident_bytes() + planting + shadows + clouds
 }

@@ -98,7 +98,7 @@ pub struct Keys {
     optical_depth: Key,
     air_tables: Key,
     life: Key,
-    /// Of edits of what stands on the ground; None if there are none, or nothing stands there.
+    /// Edits of what stands on the ground; None if there are none, or nothing stands there.
     life_edits: Option<Key>,
 }
 

@@ -273,7 +273,7 @@ fn the_nearest_object_is_that_of_the_library() {
         let (_, out, _) = nearest(more);
         assert!(out.contains(&format!("{kind} {}, ", wanted.instance.id)), "{out}");
     }
-    // Of the ground under it, too.
+    // Bounds of the ground under the object count, too.
     let height_m = terrain.height_m(dir);
     let above = format!("{}", height_m + 1.0);
     let takes = |instance: &tellus::life::Instance| instance.ground_m >= height_m + 1.0;

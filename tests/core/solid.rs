@@ -366,7 +366,7 @@ fn hidden_objects_stay_hidden_when_populations_move_are_renamed_and_come_back() 
     read.retain_shown(&mut shown);
     assert_eq!((places, all - shown.len()), (read.len(), read.len()));
     assert_eq!(read.iter().next().unwrap().population(after.planet()), Some(2));
-    // Without the boulders theirs are told, kept, and hide nothing.
+    // A planet without boulders: their hidden objects are told, kept, and hide nothing.
     let without = terrain_with(vec![after.planet().life[2].clone()]);
     let strangers: Vec<_> = read.strangers(without.planet()).collect();
     assert!(!strangers.is_empty() && strangers.iter().all(|object| object.seed == 2));

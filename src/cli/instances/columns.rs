@@ -37,7 +37,7 @@ pub(super) fn write(file: &mut File, planet: &Planet, instances: &[Instance]) ->
 fn write_groups(file: &mut File, planet: &Planet, instances: &[Instance]) -> Result<(), ParquetError> {
     let properties = WriterProperties::builder()
         .set_created_by(concat!("tellus ", env!("CARGO_PKG_VERSION")).to_owned())
-        // Of all columns names alone repeat.
+        // Names repeat; numbers do not.
         .set_dictionary_enabled(false)
         .set_column_dictionary_enabled(ColumnPath::from("kind"), true)
         .set_sorting_columns(Some(vec![SortingColumn { column_idx: 0, descending: false, nulls_first: false }]))

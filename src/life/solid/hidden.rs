@@ -89,12 +89,12 @@ impl HiddenObjects {
         self.of_seed(object.seed).holds(object.id)
     }
 
-    /// Those of the population with a seed.
+    /// Hidden objects of the population with a seed.
     pub(crate) fn of_seed(&self, seed: u32) -> HiddenOf<'_> {
         HiddenOf(self.by_seed.get(&seed))
     }
 
-    /// All of them, in ascending order.
+    /// All hidden objects, in ascending order.
     pub fn iter(&self) -> impl Iterator<Item = ObjectId> {
         self.by_seed.iter().flat_map(|(seed, ids)| {
             let mut ids: Vec<u64> = ids.iter().copied().collect();
@@ -103,8 +103,8 @@ impl HiddenObjects {
         })
     }
 
-    /// Those whose population a planet does not have, in ascending order: a save may be older than the preset. They
-    /// hide nothing there.
+    /// Hidden objects whose population a planet does not have, in ascending order: a save may be older than the preset.
+    /// They hide nothing there.
     pub fn strangers(&self, planet: &Planet) -> impl Iterator<Item = ObjectId> {
         self.iter().filter(|object| object.population(planet).is_none())
     }

@@ -18,7 +18,7 @@ impl GroundEdit {
         (!name.is_empty()).then_some(name)
     }
 
-    /// The name that it may name a population by.
+    /// The field that names a population; None if the tool has none.
     fn population_mut(&mut self) -> Option<&mut String> {
         match &mut self.tool {
             Tool::Life(paint) => Some(&mut paint.population),
@@ -50,6 +50,17 @@ impl Planet {
 }
 
 impl GroundEdits {
+    /// Removes edits that name populations which are not there.
+    pub(crate) fn drop_strangers(&mut self, life: &[Population]) {
+        let names: HashSet<&str> = life.iter().map(|population| population.name.as_str()).collect();
+        for index in (0..self.len()).rev() {
+            let name = self.get(index).and_then(GroundEdit::painted_population);
+            if name.is_some_and(|name| !names.contains(name)) {
+                self.remove(index);
+            }
+        }
+    }
+
     /// Edits follow populations that were changed: those that name a population which got another name take it over,
     /// those of one that is gone go, too. While a name is typed it may be empty or that of another population for a
     /// moment: then its edits keep the name that they have, and take over the next one.

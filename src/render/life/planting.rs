@@ -19,6 +19,11 @@ impl PlantingBuffer {
         Self { buffer: buffer(device, &[0]), map: None }
     }
 
+    /// Memory of the buffer.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        self.buffer.size()
+    }
+
     /// Takes the map of a body's scenery, and writes to the body's uniforms where it lies. Tells whether the buffer is
     /// another one now.
     pub(crate) fn show(&mut self, device: &wgpu::Device, body: &scene::Body<'_>, to: &mut Body) -> bool {

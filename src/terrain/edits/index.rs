@@ -105,6 +105,17 @@ pub(super) fn may_touch(a: (DVec3, f64), b: (DVec3, f64)) -> bool {
     a.0.distance_squared(b.0) <= sum * sum
 }
 
+/// Whether a piece touches a disc, given by its middle and chord, and belongs to some edits.
+fn counts(
+    roster: &Roster,
+    number: u32,
+    (middle, chord): (DVec3, f64),
+    wanted: &impl Fn(&CompiledEdit) -> bool,
+) -> bool {
+    roster.piece(number).is_some_and(|piece| piece.touches(middle, chord))
+        && roster.edit(slot_of(number)).is_some_and(|edit| wanted(edit))
+}
+
 /// The disc around a node: its middle, and the chord to its edge.
 fn disc_of(id: NodeId) -> (DVec3, f64) {
     let middle = id.direction(0.5, 0.5);
@@ -213,21 +224,24 @@ impl Index {
         Key::of(&self.faces.each_ref().map(|face| face.hash))
     }
 
-    /// The key of the pieces that touch a node; None if none does.
-    pub(super) fn key_near(&self, id: NodeId, roster: &Roster) -> Option<Key> {
-        let mut cell = self.faces.get(id.face as usize)?;
-        for level in 0..id.level {
-            let Some(quarters) = &cell.quarters else {
-                // The list is that of a larger cell.
-                let (middle, chord) = disc_of(id);
-                let touches = |number: &u32| roster.piece(*number).is_some_and(|piece| piece.touches(middle, chord));
-                let near: Vec<u32> = cell.list.iter().copied().filter(touches).collect();
-                return (!near.is_empty()).then(|| Key::of(&hash(&near, roster)));
-            };
-            let shift = id.level - 1 - level;
+    /// The smallest cell that holds a node, and whether it is the node's own.
+    fn cell_of(&self, id: NodeId) -> Option<(&Cell, bool)> {
+        let mut cell: &Cell = self.faces.get(id.face as usize)?;
+        for shift in (0..id.level).rev() {
+            let Some(quarters) = &cell.quarters else { return Some((cell, false)) };
             cell = &quarters[(id.x >> shift & 1) as usize + 2 * (id.y >> shift & 1) as usize];
         }
-        (!cell.list.is_empty()).then(|| Key::of(&cell.hash))
+        Some((cell, true))
+    }
+
+    /// The key of the pieces that touch a node; None if none does.
+    pub(super) fn key_near(&self, id: NodeId, roster: &Roster) -> Option<Key> {
+        let (cell, is_own) = self.cell_of(id)?;
+        if is_own {
+            (!cell.list.is_empty()).then(|| Key::of(&cell.hash))
+        } else {
+            self.key_of_some(id, roster, |_| true)
+        }
     }
 
     /// The key of those pieces that touch a node and belong to some edits; None if none does.
@@ -237,7 +251,7 @@ impl Index {
         roster: &Roster,
         wanted: impl Fn(&CompiledEdit) -> bool,
     ) -> Option<Key> {
-        let near = self.pieces_of_some(id, roster, wanted);
+        let near: Vec<u32> = self.pieces_of_some(id, roster, wanted).collect();
         (!near.is_empty()).then(|| Key::of(&hash(&near, roster)))
     }
 
@@ -245,14 +259,13 @@ impl Index {
     #[cfg(feature = "render")]
     pub(super) fn key_in(
         &self,
-        (dir, chord): (DVec3, f64),
+        disc: (DVec3, f64),
         roster: &Roster,
         wanted: impl Fn(&CompiledEdit) -> bool,
     ) -> Option<Key> {
         let mut near = Vec::new();
-        let touches = |number: &u32| roster.piece(*number).is_some_and(|piece| piece.touches(dir, chord));
-        let counts = |number: &u32| touches(number) && roster.edit(slot_of(*number)).is_some_and(|edit| wanted(edit));
-        self.each_leaf(Some((dir, chord)), &mut |pieces| near.extend(pieces.iter().copied().filter(counts)));
+        let counts = |number: &u32| counts(roster, *number, disc, &wanted);
+        self.each_leaf(Some(disc), &mut |pieces| near.extend(pieces.iter().copied().filter(counts)));
         near.sort_unstable_by_key(|number| roster.rank(*number));
         near.dedup();
         (!near.is_empty()).then(|| Key::of(&hash(&near, roster)))
@@ -264,19 +277,11 @@ impl Index {
         id: NodeId,
         roster: &Roster,
         wanted: impl Fn(&CompiledEdit) -> bool,
-    ) -> Vec<u32> {
-        let Some(mut cell) = self.faces.get(id.face as usize) else { return Vec::new() };
-        for shift in (0..id.level).rev() {
-            let Some(quarters) = &cell.quarters else { break };
-            cell = &quarters[(id.x >> shift & 1) as usize + 2 * (id.y >> shift & 1) as usize];
-        }
-        if cell.list.is_empty() {
-            return Vec::new();
-        }
-        let (middle, chord) = disc_of(id);
-        let touches = |number: &u32| roster.piece(*number).is_some_and(|piece| piece.touches(middle, chord));
-        let counts = |number: &u32| touches(number) && roster.edit(slot_of(*number)).is_some_and(|edit| wanted(edit));
-        cell.list.iter().copied().filter(counts).collect()
+    ) -> impl Iterator<Item = u32> {
+        let listed = self.cell_of(id).map(|(cell, _)| &cell.list).filter(|list| !list.is_empty());
+        let listed = listed.map(|list| (list, disc_of(id))).into_iter();
+        let pieces = listed.flat_map(|(list, disc)| list.iter().map(move |number| (*number, disc)));
+        pieces.filter(move |(number, disc)| counts(roster, *number, *disc, &wanted)).map(|(number, _)| number)
     }
 
     /// Calls `found` with the list of each leaf that may touch a disc, given by its middle and chord (None: of every

@@ -80,6 +80,11 @@ impl CompiledEdit {
         matches!(self.paint(), Some(Paint::Object { population: of, .. }) if of.is_none_or(|of| of == population))
     }
 
+    /// Whether it changes where a population stands.
+    fn changes(&self, population: PopulationId) -> bool {
+        self.plants(Some(population)) || self.places(population)
+    }
+
     /// Whether it changes the share of a population; without one, whether it changes that of all of them.
     fn plants(&self, population: Option<PopulationId>) -> bool {
         match self.paint() {
@@ -101,10 +106,14 @@ impl Edits {
         (!self.life.is_empty()).then(|| Self::with_masks(self.life.key_of_all(), self.masked.life, || self.mask_key()))
     }
 
+    /// Whether edits that touch a node change where a population stands.
+    pub(crate) fn touches_life(&self, id: NodeId, population: PopulationId) -> bool {
+        self.life.pieces_of_some(id, &self.roster, |edit| edit.changes(population)).next().is_some()
+    }
+
     /// The key of the edits that touch a node and change where a population stands. None if none does.
     pub(crate) fn life_key_near(&self, id: NodeId, population: PopulationId) -> Option<Key> {
-        let counts = |edit: &CompiledEdit| edit.plants(Some(population)) || edit.places(population);
-        let key = self.life.key_of_some(id, &self.roster, counts)?;
+        let key = self.life.key_of_some(id, &self.roster, |edit| edit.changes(population))?;
         Some(Self::with_masks(key, self.masked.life, || self.mask_key_near(id)))
     }
 
@@ -145,11 +154,11 @@ impl Edits {
         sizes.fold(0.0, f64::max)
     }
 
-    /// Whether an edit changes the share of its density that a population has.
+    /// Whether an edit changes the share of its greatest density that a population has: all but those that place single
+    /// objects.
     #[cfg(feature = "render")]
     pub(crate) fn plants_by_share(&self) -> bool {
-        let places = |edit: &CompiledEdit| matches!(edit.paint(), Some(Paint::Object { .. }));
-        self.roster.edits().any(|edit| edit.is_life() && !places(edit))
+        self.life_strokes().next().is_some() || self.roster.edits().any(|edit| edit.is_built())
     }
 
     /// The strokes of life: the population of each, None for all, and the density that it leads to.

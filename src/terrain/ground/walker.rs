@@ -65,8 +65,7 @@ impl Default for WalkerBody {
 }
 
 impl WalkerBody {
-    /// Way to a place around, the farther the higher its number: a spiral of the golden angle, with
-    /// two places on the area of the body.
+    /// Step to the place of a number on a spiral of the golden angle, with two places on the area of the body.
     fn place_around(&self, up: DVec3, number: usize) -> DVec3 {
         let (number, (east, north)) = (number as f64 + 1.0, up.any_orthonormal_pair());
         let (sin, cos) = libm::sincos(2.399_963 * number);
