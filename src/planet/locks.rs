@@ -129,9 +129,9 @@ pub fn keep(from: &Planet, to: &Planet) -> Option<Planet> {
     let mut kept = to.clone();
     keep_parts(from, &locks, &mut kept);
     keep_layers(from, &locks, &mut kept);
-    // Edits of populations that are gone go, too.
-    kept.edits.drop_strangers(&kept.life);
     keep_values(from, &locks, &mut kept);
+    // Edits of populations that are gone go last: values are found by the index of their edit.
+    kept.edits.drop_strangers(&kept.life);
     let notes = kept.editor.get_or_insert_default();
     notes.locks = from.editor.as_ref().map(|notes| notes.locks.clone()).unwrap_or_default();
     validate::problems(&kept).is_empty().then_some(kept)
