@@ -15,9 +15,8 @@ struct CanopyLayer {
     seen: f32,
     // Area of all its objects for each area of ground, as seen from above (x) and from the side (y)
     areas: vec2f,
-    // Whether its objects cast shadows; area of neighbours that shade one
+    // Whether its objects cast shadows
     casts: f32,
-    neighbours: f32,
     height_m: f32,
     // Light of the sun and of the sky on what is seen here, factors on the mean
     relief: vec2f,
@@ -81,8 +80,10 @@ fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
     return on_land * (by_hand.x * by_rule + by_hand.y);
 }
 
+// Share of a pixel below which lower objects are left out.
+const HIDDEN: f32 = 0.02;
 // Strength of stands in the density of objects that stand in groups.
-const GROUPS: f32 = 1.6;
+const GROUPS: f32 = 0.8;
 
 // Adds the layers of a biome, the highest first. Single crowns are those of the layer that covers most.
 fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, place: CanopyPlace) {
@@ -108,11 +109,13 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
     var through = vec4f(0.0);
     for (var i = 0; i < count && most_seen > 0.0; i++) {
         if densities[i] <= 0.0 { continue; }
+        // What higher objects hide does not count.
+        if open < HIDDEN { break; }
         let row = CANOPY_ROW + i * CANOPY_LAYER_ROWS;
         let color = biome_param(id, row);
         let shape = biome_param(id, row + 1);
         let kind = biome_param(id, row + 4);
-        let size = biome_param(id, row + 5).zw;
+        let height_m = biome_param(id, row + 5).w;
         var stand = 0.0;
         if i == most { stand = stands(kind.x, body.eye_wrap_far_m + place.rel_m, place.footprint_m); }
         let density = densities[i] * max(1.0 + GROUPS * kind.y * stand, 0.0);
@@ -124,13 +127,13 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         var albedo = color.rgb;
         if i == most && drawn < 1.0 {
             let left = (1.0 - drawn) * density;
-            let crowns = crowns_seen(kind.x, size.y, color.w, shape.x, left, place, body.suns[0].dir);
+            let crowns = crowns_seen(kind.x, height_m, color.w, shape.x, left, place, body.suns[0].dir);
             rest = mix(rest, 1.0 - crowns.hit, crowns.clear);
             relief = mix(vec2f(1.0), crowns.relief, crowns.clear) * (1.0 + STANDS * stand);
             albedo = hue_of_one(color.rgb, mix(0.5, crowns.random, crowns.clear) + STAND_HUES * stand);
         }
         (*canopy).layers[end] = CanopyLayer(
-            albedo, share * open * (1.0 - rest), areas, kind.w, size.x, size.y, relief, vec2<i32>(id, row),
+            albedo, share * open * (1.0 - rest), areas, kind.w, height_m, relief, vec2<i32>(id, row),
         );
         open *= rest;
         end += 1;
@@ -219,14 +222,25 @@ const TOPS_FROM_ABOVE: f32 = 0.27;
 const TOPS_ASLANT: f32 = 0.2;
 const TOPS_AGAINST: f32 = 1.4;
 
-// Areas of the objects that overtop a layer: those of its own height do not.
-fn higher_areas(canopy: Canopy, number: i32) -> vec2f {
-    var sum = vec2f(0.0);
-    for (var i = select(0, canopy.ends.x, number >= canopy.ends.x); i < number; i++) {
-        let over = 1.0 - canopy.layers[number].height_m / max(canopy.layers[i].height_m, 1e-3);
-        sum += canopy.layers[i].casts * over * canopy.layers[i].areas;
+// What stands around the objects of a layer, as areas for each area of ground.
+struct LayerAmong {
+    // Of the objects that overtop it, as seen from above and from the side
+    above: vec2f,
+    // Of those beside it, from the side: the less, the more crowns close
+    neighbours: f32,
+}
+
+fn layer_among(canopy: Canopy, number: i32) -> LayerAmong {
+    var above = vec2f(0.0);
+    var beside = vec2f(0.0);
+    let is_second = number >= canopy.ends.x;
+    for (var i = select(0, canopy.ends.x, is_second); i < select(canopy.ends.x, canopy.ends.y, is_second); i++) {
+        let heights = canopy.layers[number].height_m / max(canopy.layers[i].height_m, 1e-3);
+        let areas = canopy.layers[i].casts * canopy.layers[i].areas;
+        above += max(1.0 - heights, 0.0) * areas;
+        beside += min(heights, 1.0 / heights) * areas;
     }
-    return sum;
+    return LayerAmong(above, beside.y * exp(-0.5 * beside.x));
 }
 
 // Radiance of all layers. `sunlight`: irradiance on a surface that faces the sun; `sky`: irradiance of level ground.
@@ -236,15 +250,15 @@ fn canopy_radiance(canopy: Canopy, sunlight: vec3f, sky: vec3f, sun_cosine: f32,
     var sum = vec3f(0.0);
     for (var i = 0; i < canopy.ends.y; i++) {
         let layer = canopy.layers[i];
-        let above = higher_areas(canopy, i);
-        let sun = exp(-above.x - above.y * sun_tangent) * neighbours_leave(layer.neighbours, sun_tangent, rays.cosine);
-        let open = mix(1.0, exp(-above.x), 1.0 - UNDER_CROWNS);
+        let among = layer_among(canopy, i);
+        let sun = exp(-among.above.x - among.above.y * sun_tangent)
+            * neighbours_leave(among.neighbours, sun_tangent, rays.cosine);
+        let open = mix(1.0, exp(-among.above.x), 1.0 - UNDER_CROWNS);
         // Of crowns that close, one sees the tops, which have more light.
         let closed = layer.casts * (1.0 - exp(-layer.areas.x));
         let aslant = mix(TOPS_ASLANT, TOPS_AGAINST, rays.against);
         let tops = mix(TOPS_FROM_ABOVE, aslant, saturate1(rays.eye_deg / COVER_EYES_DEG.y));
-        // At a flat angle one sees the sides again.
-        let more = tops * smoothstep(90.0, 75.0, rays.eye_deg);
+        let more = tops;
         let light = object_light(layer.at, rays) * (1.0 + closed * more);
         let of_sun = sunlight * (sun * layer.relief.x * light.x);
         sum += layer.seen * layer.albedo * (of_sun + sky * (open * layer.relief.y * light.y));

@@ -27,6 +27,9 @@ const JITTER: f32 = 0.65;
 // Cosine to the normal of the ground below which rays are taken as steeper: flatter ones would see the highest tops
 // alone. Of those that are much flatter the mean is shown.
 const LEAST_MU: f32 = 0.17;
+// Light of the domes that flat rays meet, over the mean: the sun behind the eye, and before it.
+const TOPS_BEHIND: f32 = 0.15;
+const TOPS_BEFORE: f32 = 0.36;
 // Depth of the saddles between closed crowns, as a share of the depth of a dome.
 const SADDLE: f32 = 0.6;
 // Way of the ray from one step to the next, at the most, in cells.
@@ -116,7 +119,8 @@ fn crowns_seen(
     // Cells that a ray passes while it rises by a metre.
     let mu = max(dot(n, v), LEAST_MU);
     let to_eye = (v - n * dot(n, v)) * axes / (mu * cell_m);
-    let steps = select(10, 5, frame.pattern_quality == 0.0);
+    let is_low = frame.pattern_quality == 0.0;
+    let steps = select(10, 5, is_low);
     let top_m = height_m * (1.0 - HEIGHTS + HEIGHTS * (LEAST_SIZE + SIZES));
     let step_m = min(top_m, f32(steps) * STEP_CELLS / max(length(to_eye), 1e-6)) / f32(steps);
     // A flat ray cannot be followed from the tops on: it is where closed crowns meet.
@@ -154,7 +158,7 @@ fn crowns_seen(
     let sun_mu = max(dot(n, sun), 0.05);
     let to_sun = (sun - n * dot(n, sun)) * axes / cell_m;
     var shadow = 0.0;
-    for (var i = 1; i <= 2; i++) {
+    for (var i = 1; i <= select(2, 1, is_low); i++) {
         let away_m = 0.45 * width_m * f32(i * i);
         let over = dome_at(foot + to_eye * z + to_sun * away_m, field).x - z - sun_mu * away_m;
         shadow = max(shadow, saturate1(over / (0.15 * width_m)));
@@ -166,7 +170,10 @@ fn crowns_seen(
     let towards_sun = textureSampleLevel(noise_tile, repeated, hit + 0.05 * sun.yzx, max(lod, 0.0)).r;
     let twigs = max((1.0 + TWIGS.x * (2.0 * twig - 1.0)) * (1.0 - TWIGS.y * (towards_sun - twig)), 0.1);
     let open = smoothstep(height_m - 1.6 * depth_m, height_m, z);
-    let tint = twigs * (1.0 + 0.5 * (dome.w - 0.5));
+    // On flat rays one sees the tops alone, which have more light than the mean.
+    let away = -dot(to_eye, to_sun) / max(length(to_eye) * length(to_sun), 1e-6);
+    let tops = 1.0 + mix(TOPS_BEHIND, TOPS_BEFORE, 0.5 + 0.5 * away) * smoothstep(0.55, LEAST_MU, mu);
+    let tint = twigs * (1.0 + 0.5 * (dome.w - 0.5)) / tops;
     out.random = fract(dome.w * 31.0);
     out.relief = tint * vec2f(lit * (1.0 - 0.75 * shadow) * mix(0.4, 1.12, open), mix(0.45, 1.2, open));
     return out;

@@ -11,6 +11,7 @@
 struct Vertex {
     // Height 1, z up
     @location(0) position: vec3f,
+    // Unit vector; logarithm of the factor on the light of the level of detail (src/life/form/cover.rs)
     @location(1) normal: vec4f,
     // Share of the second colour; share of the sky that it sees; how far the wind moves it; level of detail, a third
     // for each
@@ -33,6 +34,8 @@ struct Surface {
     @location(8) @interpolate(flat) among: f32,
     @location(9) @interpolate(flat) level: f32,
     @location(10) @interpolate(flat) material: u32,
+    // Factor on the light of the level of detail
+    @location(11) @interpolate(flat) level_light: f32,
 }
 
 fn turned(q: vec4f, v: vec3f) -> vec3f {
@@ -67,6 +70,7 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
         instance.neighbours, ray_tangent(dot(body.eye_up, sun)), dot(normalize(-out.rel_m), sun),
     );
     out.level = in.look.w;
+    out.level_light = exp2(in.normal.w);
     out.size_m = instance.size_m;
     out.material = kind_of(instance);
     // Coarse levels are smooth where fine ones have single leaves.
@@ -120,7 +124,7 @@ fn fragment(in: Surface) -> Output {
     let lit = (front + behind) * smoothstep(0.0, 0.75, in.look.y);
     let open = (0.5 + 0.5 * dot(n, up)) * in.look.y;
     let mottled = 1.0 + in.place_m.w * 1.3 * (lattice_noise(in.place_m.xyz * (11.0 / in.size_m)) - 0.5);
-    let albedo = in.albedo * material.tint * mottled;
+    let albedo = in.albedo * material.tint * (mottled * in.level_light);
     var shade = object_shade(in.rel_m + l * (OWN_LEAVES * leaf * in.size_m), n);
     shade.sun -= (1.0 - shade.known.x) * (1.0 - in.among);
     let sky = in.sky * mix(1.0, shade.sky, 1.0 - 0.6 * leaf);

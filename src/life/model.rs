@@ -12,6 +12,10 @@ pub struct Model {
     pub key: Key,
     /// For each variant, its levels of detail, nearest first. Height 1, z up, the foot at the origin.
     pub variants: Vec<[Mesh; form::LEVELS]>,
+    /// For each level of detail, a factor on its light that makes all of them equally bright.
+    pub(crate) level_light: [f64; form::LEVELS],
+    /// Distance from the foot within which every mesh lies, in heights.
+    pub(crate) reach: f64,
 }
 
 impl Model {
@@ -23,8 +27,13 @@ impl Model {
     /// Makes the meshes of a population, on all cores.
     pub fn new(population: &Population) -> Self {
         let variants = (0..Form::VARIANTS).into_par_iter();
-        let variants = variants.map(|variant| form::meshes(&population.form, seed(population, variant))).collect();
-        Self { key: Self::key_of(population), variants }
+        let variants = variants.map(|variant| form::meshes(&population.form, seed(population, variant)));
+        let variants: Vec<_> = variants.collect();
+        // Variants differ little: one is measured.
+        let level_light = variants.first().map_or([1.0; form::LEVELS], form::level_light);
+        let vertices = variants.iter().flatten().flat_map(|mesh| &mesh.vertices);
+        let reach = vertices.map(|vertex| f64::from(vertex.position.length())).fold(0.0, f64::max);
+        Self { key: Self::key_of(population), variants, level_light, reach }
     }
 
     /// Mesh of one variant of a population's form at the nearest level of detail; see [`form::mesh`].

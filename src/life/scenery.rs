@@ -50,14 +50,24 @@ pub struct SceneryCell {
     pub id: NodeId,
     /// Its objects.
     pub objects: Vec<SceneryObject>,
-    /// Middle of a sphere that holds them, metres from the planet's centre.
+    /// Middle of a sphere that holds their feet, metres from the planet's centre.
     pub center_planet_m: DVec3,
     /// Radius of that sphere.
-    pub bounding_radius_m: f64,
+    pub feet_radius_m: f64,
+    /// Height of the tallest of them.
+    pub tallest_m: f64,
     /// Content key of the population, and of what decides about the ground besides its shape.
     rules: Key,
     /// Content key of the shape of the ground, and of the edits that clear and plant it.
     ground: Key,
+}
+
+impl SceneryCell {
+    /// Radius of a sphere that holds the objects. `reach`: distance from its foot within which an object lies, in
+    /// heights.
+    pub(crate) fn radius_m(&self, reach: f64) -> f64 {
+        self.feet_radius_m + reach * self.tallest_m
+    }
 }
 
 /// The objects that a view draws.
@@ -316,12 +326,14 @@ fn make(terrain: &Terrain, needed: &Needed<'_>, soil: Option<&Soil>, memory: &mu
     let instances = needed.placement.place(terrain, needed.id, soil, memory);
     let objects: Vec<SceneryObject> = instances.iter().map(|instance| object(instance, planet_m)).collect();
     let middle = objects.iter().map(|object| object.foot_planet_m).sum::<DVec3>() / objects.len().max(1) as f64;
-    let reach = |object: &SceneryObject| object.foot_planet_m.distance(middle) + f64::from(object.size_m) * 1.5;
+    let from_middle = |object: &SceneryObject| object.foot_planet_m.distance(middle);
+    let greatest = |of: &dyn Fn(&SceneryObject) -> f64| objects.iter().map(of).fold(0.0, f64::max);
     SceneryCell {
         population: needed.placement.index,
         id: needed.id,
         center_planet_m: middle,
-        bounding_radius_m: objects.iter().map(reach).fold(0.0, f64::max),
+        feet_radius_m: greatest(&from_middle),
+        tallest_m: greatest(&|object| object.size_m.into()),
         objects,
         rules: needed.rules,
         ground: needed.ground,

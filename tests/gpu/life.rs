@@ -258,6 +258,34 @@ fn the_canopy_from_afar_has_the_colour_and_the_light_of_its_objects() {
 }
 
 #[test]
+fn a_forest_of_several_populations_has_one_light_near_and_far() {
+    let mut planet = (*covered_by("Broadleaf tree")).clone();
+    let tall = planet.life[0].clone();
+    let like = |name: &str, seed: u32, height_m: f64, per_hectare: f64| Population {
+        name: name.to_owned(),
+        seed,
+        height_m,
+        per_hectare,
+        ..tall.clone()
+    };
+    planet.life = vec![like("Tall", 1, 18.0, 260.0), like("Light", 2, 13.0, 120.0), like("Young", 3, 3.0, 260.0)];
+    let planet = Arc::new(planet);
+    let mut wrong = Vec::new();
+    // Fine levels of detail, and coarse ones.
+    for altitude_m in [60.0, 150.0] {
+        let view = view(&planet, altitude_m, -32.0);
+        for away_deg in [45.0, -45.0] {
+            let [near, far] = near_and_far(&planet, view, away_deg, DebugView::Shaded);
+            let off = factor(near, far);
+            let told = format!("{altitude_m} m, sun {away_deg}: {near:.4?}, canopy {far:.4?}, {off:.2}");
+            println!("{told}");
+            wrong.extend((off >= 1.3).then_some(told));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
 fn the_ground_beneath_a_canopy_is_in_its_shade() {
     let mut planet = (*covered_by("Broadleaf tree")).clone();
     let view = view(&Arc::new(planet.clone()), 20_000.0, -90.0);

@@ -2,7 +2,7 @@
 
 use super::build::Mesh;
 use super::math::{TURN, around, smooth};
-use super::sight;
+use super::{LEVELS, sight};
 use crate::planet::Form;
 use glam::{Vec2, Vec3};
 
@@ -59,15 +59,49 @@ impl Cover {
                 let suns = [azimuth, opposite].map(|azimuth| View::new(&mesh, direction(from_zenith_deg, azimuth)));
                 for (sum, (eye, azimuth)) in out.sun.iter_mut().zip(sides) {
                     let sun = &suns[usize::from(azimuth == opposite)];
-                    sum[k] += eye.mean(|hit| hit.sunlight(sun));
+                    sum[k] += eye.mean(|hit| hit.sunlight(sun, LEAF_SOFT[1]));
                 }
             }
         }
         let share = 1.0 / f64::from(TURNS);
-        out.sky = out.sky.map(|sum| sum * share);
-        out.sun = out.sun.map(|sums| sums.map(|sum| sum * share));
+        let even = share * evened(sunlight(&near, 0), sunlight(&mesh, LEVELS - 1), sunlight(&mesh, LEVELS - 1));
+        out.sky = out.sky.map(|sum| sum * even);
+        out.sun = out.sun.map(|sums| sums.map(|sum| sum * even));
         out
     }
+}
+
+/// Least and greatest factor on the light of a level of detail.
+const EVENED: [f64; 2] = [0.6, 1.6];
+
+/// Factors on the light of each level of detail that make all of them equally bright: single leaves shade one another
+/// more than the smooth crowns of coarse levels do.
+pub(crate) fn level_light(meshes: &[Mesh; LEVELS]) -> [f64; LEVELS] {
+    let seen: [f64; LEVELS] = std::array::from_fn(|level| sunlight(&meshes[level], level));
+    seen.map(|own| evened(seen[0], own, seen[LEVELS - 1]))
+}
+
+/// Factor that leads the mean light of a level to the middle of the nearest and the farthest one.
+fn evened(near: f64, own: f64, far: f64) -> f64 {
+    if own > 0.0 { ((near * far).sqrt() / own).clamp(EVENED[0], EVENED[1]) } else { 1.0 }
+}
+
+/// Mean share of the sun's light on what is seen of a level of detail from aslant, the sun high and low, behind the eye
+/// and before it.
+fn sunlight(mesh: &Mesh, level: usize) -> f64 {
+    let azimuth = 0.35 * TURN;
+    let eye = View::new(mesh, direction(EYES_DEG[1], azimuth));
+    let of_sun = |from_zenith_deg, azimuth| {
+        let sun = View::new(mesh, direction(from_zenith_deg, azimuth));
+        eye.mean(|hit| hit.sunlight(&sun, leaf_soft(level)))
+    };
+    let both = |from_zenith_deg| of_sun(from_zenith_deg, azimuth) + of_sun(from_zenith_deg, azimuth + 0.5 * TURN);
+    0.25 * SUNS_DEG.map(both).iter().sum::<f64>()
+}
+
+/// Softness of the edge between light and shade on the leaves of a level of detail.
+fn leaf_soft(level: usize) -> f32 {
+    LEAF_SOFT[0] + (LEAF_SOFT[1] - LEAF_SOFT[0]) * level as f32 / (LEVELS - 1) as f32
 }
 
 /// Unit vector at an angle from the zenith and an azimuth.
@@ -86,11 +120,12 @@ struct Hit {
 
 impl Hit {
     /// Share of the sunlight that is reflected to all sides, as in `life.wgsl`. `sun`: the mesh from the sun.
-    fn sunlight(&self, sun: &View<'_>) -> f32 {
+    /// `leaf_soft`: softness of the edge between light and shade on leaves.
+    fn sunlight(&self, sun: &View<'_>, leaf_soft: f32) -> f32 {
         if sun.hides(self.position + sun.to_eye * (OWN_LEAVES * self.part + BIAS)) {
             return 0.0;
         }
-        let (facing, soft) = (self.normal.dot(sun.to_eye), LEAF_SOFT[1] * self.part);
+        let (facing, soft) = (self.normal.dot(sun.to_eye), leaf_soft * self.part);
         let front = ((facing + soft) / (1.0 + soft)).max(0.0) / (1.0 + 0.5 * soft);
         let behind = TRANSLUCENT * self.part * (-facing).max(0.0);
         (front + behind) * smooth(0.0, 0.75, self.light)

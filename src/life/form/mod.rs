@@ -38,7 +38,7 @@ mod tuft;
 use crate::planet::Form;
 use build::Detail;
 pub use build::{Mesh, Vertex};
-pub(crate) use cover::Cover;
+pub(crate) use cover::{Cover, level_light};
 
 /// Number of levels of detail: 0 is the nearest.
 pub const LEVELS: usize = 4;

@@ -12,6 +12,7 @@ use wgpu::util::DeviceExt;
 #[repr(C)]
 pub(super) struct Vertex {
     position: [f32; 3],
+    /// The last number is the logarithm to base 2 of the level's factor of light.
     normal: [i8; 4],
     look: [u8; 4],
 }
@@ -39,13 +40,14 @@ impl GpuModel {
     fn new(device: &wgpu::Device, model: &Model) -> Self {
         let (mut vertices, mut indices): (Vec<Vertex>, Vec<u16>) = Default::default();
         let mut add = |level: usize, mesh: &Mesh| {
+            let light = (model.level_light[level].log2().clamp(-1.0, 1.0) * 127.0).round() as i8;
             let (base_vertex, first) = (vertices.len() as i32, indices.len() as u32);
             vertices.extend(mesh.vertices.iter().map(|vertex| {
                 let [x, y, z] = vertex.normal.to_array().map(|part| (part * 127.0).round() as i8);
                 let look = [vertex.part, vertex.light, vertex.sway].map(|share| (share * 255.0).round() as u8);
                 Vertex {
                     position: vertex.position.to_array(),
-                    normal: [x, y, z, 0],
+                    normal: [x, y, z, light],
                     look: [look[0], look[1], look[2], (level * 85) as u8],
                 }
             }));

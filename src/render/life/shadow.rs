@@ -88,9 +88,10 @@ impl Cascades {
         out.has_shadows = 1;
     }
 
-    /// Whether objects of a cell may cast shadows into any cascade.
-    pub(super) fn reaches(&self, cell: &SceneryCell, eye_m: DVec3) -> bool {
-        let reach_m = 1.5 * self.radii_m[CASCADES - 1] + cell.bounding_radius_m;
+    /// Whether objects of a cell may cast shadows into any cascade. `reach`: distance from its foot within which an object
+    /// lies, in heights.
+    pub(super) fn reaches(&self, cell: &SceneryCell, reach: f64, eye_m: DVec3) -> bool {
+        let reach_m = 1.5 * self.radii_m[CASCADES - 1] + cell.radius_m(reach);
         (cell.center_planet_m - eye_m).distance(self.center_rel_m) < reach_m
     }
 

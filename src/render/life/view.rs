@@ -117,11 +117,16 @@ impl LifeView {
         let drawn = Drawn::new(view, cascades);
         let levels_px: Vec<_> = scenery.models.iter().map(|model| level_px(view.quality, model.as_deref())).collect();
         let made = &body.surface.terrain.planet().life;
+        // Shadows hide what a level of detail lacks.
+        let coarser = usize::from(view.quality == Quality::Low);
         let mut seen = Bins::new(scenery.models.len());
         let mut casting: [Bins; CASCADES] = std::array::from_fn(|_| Bins::new(scenery.models.len()));
+        let reaches: Vec<f64> =
+            scenery.models.iter().map(|model| model.as_ref().map_or(0.0, |model| model.reach)).collect();
         for cell in &scenery.cells {
-            let is_seen = culling.sees_sphere(cell.center_planet_m, cell.bounding_radius_m);
-            let casts = cascades.is_some_and(|cascades| cascades.reaches(cell, drawn.eye_m));
+            let reach = reaches.get(usize::from(cell.population)).copied().unwrap_or_default();
+            let is_seen = culling.sees_sphere(cell.center_planet_m, cell.radius_m(reach));
+            let casts = cascades.is_some_and(|cascades| cascades.reaches(cell, reach, drawn.eye_m));
             let index = usize::from(cell.population);
             let known = populations.get(index).zip(levels_px.get(index));
             let (Some((population, level_px)), true) = (known, is_seen || casts) else { continue };
@@ -139,12 +144,12 @@ impl LifeView {
                 let Some(shown) = drawn.shown(object, reach_m, level_px) else { continue };
                 let instance = look.instance(object, &shown);
                 let variant = usize::from(object.variant);
-                if is_seen {
+                if is_seen && culling.sees_sphere(object.foot_planet_m, reach * shown.size_m) {
                     seen.add(array, (index, variant, shown.level), instance);
                 }
                 for (cascade, bins) in casting.iter_mut().enumerate().filter(|_| casts) {
                     if drawn.casts(cascade, &shown) {
-                        bins.add(0, (index, variant, (shown.level + cascade).min(LEVELS - 1)), instance);
+                        bins.add(0, (index, variant, (shown.level + cascade + coarser).min(LEVELS - 1)), instance);
                     }
                 }
             }
