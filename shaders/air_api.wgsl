@@ -25,7 +25,7 @@ fn altitude_of(rel_m: vec3f) -> f32 {
 fn light_at(rel_m: vec3f, n: vec3f) -> Light { return light_through(rel_m, n, vec2f(1.0)); }
 
 // Share of the first sun's light that objects and things of the game leave at a point on a surface with the normal `n`.
-fn sun_share(rel_m: vec3f, n: vec3f) -> f32 { return object_shade(rel_m, n).sun; }
+fn sun_share_at(rel_m: vec3f, n: vec3f) -> f32 { return object_shade(rel_m, n).sun; }
 
 // Irradiance at a point on a surface with the normal `n`, in the shadows of objects and of things of the game.
 // `from_ground`: share of the first sun's light that the ground leaves there, which the game asks for

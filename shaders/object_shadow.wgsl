@@ -16,9 +16,9 @@ const SKY_REACH_M: f32 = 5.0;
 const UNDER_CROWNS: f32 = 0.45;
 // The maps: around the eye all that casts shadows; farther out objects alone, which tells of the sky, too; farthest out
 // things of a game alone.
-const NEAR: i32 = 0;
-const WIDE: i32 = 1;
-const CASTERS: i32 = 2;
+const NEAR_MAP: i32 = 0;
+const WIDE_MAP: i32 = 1;
+const CASTER_MAP: i32 = 2;
 
 // A point in a map: its place in clip space, and how far the map counts there.
 struct InMap {
@@ -54,21 +54,21 @@ const SOFT_TEXELS: f32 = 1.2;
 // `n`: normal of the surface at the point, which is `rel_m` from the eye.
 fn object_shade(rel_m: vec3f, n: vec3f) -> ObjectShade {
     if body.has_shadows + body.has_casters == 0u { return NO_SHADE; }
-    let near = in_map(NEAR, rel_m, n);
+    let near = in_map(NEAR_MAP, rel_m, n);
     var out = NO_SHADE;
     if body.has_shadows != 0u {
-        let wide = in_map(WIDE, rel_m, n);
+        let wide = in_map(WIDE_MAP, rel_m, n);
         if wide.own > 0.0 {
-            if near.own < 1.0 { out.sun = mix(1.0, map_light(WIDE, wide.clip, SOFT_TEXELS), wide.own); }
-            let around = map_light(WIDE, wide.clip, 2.0 * SKY_REACH_M / body.shadow_texel_m[WIDE]);
+            if near.own < 1.0 { out.sun = mix(1.0, map_light(WIDE_MAP, wide.clip, SOFT_TEXELS), wide.own); }
+            let around = map_light(WIDE_MAP, wide.clip, 2.0 * SKY_REACH_M / body.shadow_texel_m[WIDE_MAP]);
             out.sky = mix(1.0, mix(UNDER_CROWNS, 1.0, around), wide.own);
         }
         out.known = vec2f(mix(wide.own, 1.0, near.own), wide.own);
     }
     if body.has_casters != 0u && near.own < 1.0 {
-        let far = in_map(CASTERS, rel_m, n);
-        if far.own > 0.0 { out.sun *= mix(1.0, map_light(CASTERS, far.clip, SOFT_TEXELS), far.own); }
+        let far = in_map(CASTER_MAP, rel_m, n);
+        if far.own > 0.0 { out.sun *= mix(1.0, map_light(CASTER_MAP, far.clip, SOFT_TEXELS), far.own); }
     }
-    if near.own > 0.0 { out.sun = mix(out.sun, map_light(NEAR, near.clip, SOFT_TEXELS), near.own); }
+    if near.own > 0.0 { out.sun = mix(out.sun, map_light(NEAR_MAP, near.clip, SOFT_TEXELS), near.own); }
     return out;
 }

@@ -14,7 +14,35 @@ const LEAST_TEXELS: f64 = 5.0;
 /// A thing of a game, or many of them, that casts shadows of the first sun on the ground, the sea, the objects of
 /// populations and the game's own meshes.
 ///
-/// It is a member of [`super::Body::casters`].
+/// It is a member of [`super::Body::casters`]:
+///
+/// ```
+/// use tellus::glam::DVec3;
+/// use tellus::render::{Scene, ShadowCaster, ShadowView, wgpu};
+///
+/// struct Hut {
+///     /// Behind `caster_wgsl()`: `shadow_view.clip_from_rel_m * vec4f(rel_m, 1.0)`.
+///     pipeline: wgpu::RenderPipeline,
+///     /// Corners, metres from the eye of this frame.
+///     corners: wgpu::Buffer,
+///     middle_planet_m: DVec3,
+/// }
+///
+/// impl ShadowCaster for Hut {
+///     fn ball(&self) -> (DVec3, f64) {
+///         (self.middle_planet_m, 6.0)
+///     }
+///     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, _to: &ShadowView) {
+///         pass.set_pipeline(&self.pipeline);
+///         pass.set_vertex_buffer(0, self.corners.slice(..));
+///         pass.draw(0..36, 0..1);
+///     }
+/// }
+///
+/// fn show<'a>(scene: &mut Scene<'a>, hut: &'a Hut) {
+///     scene.bodies[0].casters.push(hut);
+/// }
+/// ```
 pub trait ShadowCaster {
     /// A ball around all of it: its middle in the frame of the body, metres, and its radius. No map is asked to draw
     /// what does not reach it.

@@ -79,9 +79,9 @@ mod white_balance;
 mod worlds;
 
 pub use biome_table::MarkedCells;
+pub use caster::{ShadowCaster, ShadowView};
 #[cfg(feature = "cli")]
 pub(crate) use cloud_map::cloud_keyframe;
-pub use caster::{ShadowCaster, ShadowView};
 pub use error::RenderError;
 pub use exposure::{Metered, Metering};
 pub use gpu::{read_texture, texture};

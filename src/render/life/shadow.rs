@@ -81,7 +81,8 @@ impl Cascades {
             let texel_m = 2.0 * radius_m / f64::from(side_px);
             let snapped = |axis: DVec3| (foot_m.dot(axis) / texel_m).round() * texel_m - eye_m.dot(axis);
             let beyond_m = (DEPTH_RADII * radius_m).max(LEAST_DEPTH_M);
-            let towards_m = if number == SKY_MAP { beyond_m } else { highest_m(body, foot_m, sun_dir, radius_m, beyond_m) };
+            let towards_m =
+                if number == SKY_MAP { beyond_m } else { highest_m(body, foot_m, sun_dir, radius_m, beyond_m) };
             let depth_m = towards_m + beyond_m;
             let row = |axis: DVec3, middle: f64, half: f64| {
                 let axis = axis / half;
