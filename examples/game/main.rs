@@ -28,12 +28,12 @@ use towers::{Tower, Towers};
 
 const SIZE_PX: [u32; 2] = [960, 540];
 /// Where the camera stands, and its height over the ground.
-const PLACE_DEG: (f64, f64) = (35.0, -5.0);
-const EYE_HEIGHT_M: f64 = 60.0;
+const PLACE_DEG: (f64, f64) = (30.0, 145.0);
+const EYE_HEIGHT_M: f64 = 130.0;
 /// The direction of the row of towers, clockwise from north.
 const ROW_HEADING_DEG: f64 = 20.0;
 /// Where the sun is in the zenith.
-const SUN_DEG: (f64, f64) = (10.0, PLACE_DEG.1 - 60.0);
+const SUN_DEG: (f64, f64) = (10.0, PLACE_DEG.1 - 65.0);
 
 /// The game: a planet, its ground for collision, and the things on it.
 pub(crate) struct Game {
@@ -55,7 +55,7 @@ impl Game {
         // Each tower is half as far away again as the one before, and larger: mountains hide some of them.
         let row = (0..11).map(|i| {
             let distance_m = 350.0 * 1.5_f64.powi(i);
-            let aside = f64::from(i % 3 - 1) * 0.18;
+            let aside = f64::from(i % 3 - 1) * 0.18 + f64::from(i) * 0.02;
             let dir = up + (ahead + aside * ahead.cross(up)) * (distance_m / planet.radius_m());
             Tower::on_ground(&terrain, dir, 0.02 * distance_m, 0.12 * distance_m).shaded(&terrain, sun_dir_planet())
         });
@@ -67,7 +67,7 @@ impl Game {
     pub(crate) fn view(&self, size_px: [u32; 2], quality: Quality) -> View {
         let place = LatLon::from_degrees(PLACE_DEG.0, PLACE_DEG.1);
         let radius_m = self.planet.radius_m() + self.terrain.height_m(place.direction()) + EYE_HEIGHT_M;
-        let camera = Camera::over(place, radius_m, self.heading_rad, -0.03, Camera::DEFAULT_FOV_Y_RAD);
+        let camera = Camera::over(place, radius_m, self.heading_rad, -0.14, Camera::DEFAULT_FOV_Y_RAD);
         View { camera, size_px, quality }
     }
 

