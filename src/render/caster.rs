@@ -43,7 +43,7 @@ const LEAST_TEXELS: f64 = 5.0;
 ///     scene.bodies[0].casters.push(hut);
 /// }
 /// ```
-pub trait ShadowCaster {
+pub trait ShadowCaster: Sync {
     /// A ball around all of it: its middle in the frame of the body, metres, and its radius. No map is asked to draw
     /// what does not reach it.
     fn ball(&self) -> (DVec3, f64);

@@ -2,8 +2,8 @@
 
 use crate::support::{Gpu, frame_of, gpu, rays, surface_of};
 use glam::{DVec2, DVec3};
-use std::cell::Cell;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::life::{ReadyPopulation, Stone};
 use tellus::planet::{Biome, Form, Planet, Population, Table, Water};
@@ -52,7 +52,7 @@ struct Caster {
     half_m: DVec3,
     pipeline: wgpu::RenderPipeline,
     corners: wgpu::Buffer,
-    draws: Cell<usize>,
+    draws: AtomicUsize,
 }
 
 const CAST: &str = "
@@ -77,7 +77,7 @@ impl Caster {
         let text = caster_wgsl().unwrap() + CAST;
         let layouts = [gpu.renderer.caster_layout()];
         let pipeline = pipeline(gpu, text, ("cast_vertex", None), &layouts, ShadowView::depth_state());
-        Self { middle_m, half_m, pipeline, corners: buffer(gpu, &corners), draws: Cell::new(0) }
+        Self { middle_m, half_m, pipeline, corners: buffer(gpu, &corners), draws: AtomicUsize::new(0) }
     }
 
     /// Whether a ray meets the box, made larger by some metres on each side.
@@ -102,7 +102,7 @@ impl ShadowCaster for Caster {
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, _: &ShadowView) {
-        self.draws.set(self.draws.get() + 1);
+        self.draws.fetch_add(1, Ordering::Relaxed);
         pass.set_pipeline(&self.pipeline);
         pass.set_vertex_buffer(0, self.corners.slice(..));
         pass.draw(0..36, 0..1);
@@ -269,13 +269,13 @@ fn without_the_sun_and_far_away_a_caster_changes_nothing() {
         let mut cast = scene.clone();
         cast.bodies[0].casters.push(caster);
         assert!(light(&scene) == light(&cast), "{away_deg}");
-        assert_eq!(caster.draws.get(), 0, "{away_deg}");
+        assert_eq!(caster.draws.load(Ordering::Relaxed), 0, "{away_deg}");
     }
     // What is there is drawn into the nearest map and into that of a game's things.
     let mut cast = scene(&surface, &planet, view, sun(40.0));
     cast.bodies[0].casters.push(&near);
     gpu().draw_only(&cast, 1);
-    assert_eq!(near.draws.get(), 2);
+    assert_eq!(near.draws.load(Ordering::Relaxed), 2);
 }
 
 #[test]
