@@ -437,3 +437,12 @@ fn the_map_of_a_games_things_leaves_the_shadows_of_trees_as_they_are() {
     let apart = without.iter().zip(&with).map(|(a, b)| (a[1] - b[1]).abs() / a[1].max(1e-3)).fold(0.0, f32::max);
     assert!(apart < 0.002, "{apart}");
 }
+
+/// Scenes are drawn on threads of their own.
+#[test]
+fn a_scene_with_casters_may_go_to_another_thread() {
+    fn is_sent<T: Send + Sync>() -> bool {
+        true
+    }
+    assert!(is_sent::<Scene<'static>>());
+}
