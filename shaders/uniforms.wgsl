@@ -8,7 +8,7 @@
 @group(0) @binding(1) var<uniform> body: Body;
 @group(0) @binding(2) var clamped: sampler;
 @group(0) @binding(3) var repeated: sampler;
-// Depth of objects from the first sun, in cascades
+// Depth of objects and of things of a game from the first sun, in maps of several widths
 @group(0) @binding(4) var object_shadows: texture_depth_2d_array;
 @group(0) @binding(5) var compared: sampler_comparison;
 

@@ -1,5 +1,6 @@
 // Draws the sea over the terrain, pixel by pixel: an analytic sphere, with no mesh and so no depth fighting.
 #include "surface.wgsl"
+#include "object_shadow.wgsl"
 #include "sea.wgsl"
 #include "underwater.wgsl"
 #include "bed.wgsl"
@@ -117,6 +118,11 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         star = 1.0 - found.g * (1.0 - smoothstep(1.0, 10.0, aside_km));
     }
     if wet <= 0.0 { return Output(scene, depth); }
+    if body.has_casters != 0u {
+        // The bed knows the shadow that falls on it; that of a ship lies on the water.
+        let there = dir * surface_km;
+        star = min(star, object_shade(there * 1000.0, normalize(body.eye_km + there)).sun);
+    }
     let lift_m = select(0.0, altitude_over_sea_m(dir, surface_km, sine), body.wave_steps > 0u);
     let sea = sea_radiance(dir * surface_km, dir, scene.rgb, depths_m, temperature_c, star, lift_m, column);
     return Output(vec4f(min(mix(scene.rgb, sea, wet), vec3f(60000.0)), height_m), depth);

@@ -1,5 +1,5 @@
-//! A game that draws its own things in front of a planet: towers that are lit by the planet's sun and sky, hidden by
-//! its mountains and hazed by its air.
+//! A game that draws its own things in front of a planet: towers that are lit by the planet's sun and sky, cast shadows
+//! on the ground and stand in those of mountains, are hidden by mountains and hazed by the air.
 //!
 //! ```sh
 //! cargo run --example game              # a window; the arrow keys turn the camera
@@ -28,10 +28,12 @@ use towers::{Tower, Towers};
 
 const SIZE_PX: [u32; 2] = [960, 540];
 /// Where the camera stands, and its height over the ground.
-const PLACE_DEG: (f64, f64) = (35.0, -5.0);
-const EYE_HEIGHT_M: f64 = 60.0;
+const PLACE_DEG: (f64, f64) = (30.0, 145.0);
+const EYE_HEIGHT_M: f64 = 130.0;
 /// The direction of the row of towers, clockwise from north.
 const ROW_HEADING_DEG: f64 = 20.0;
+/// Where the sun is in the zenith.
+const SUN_DEG: (f64, f64) = (10.0, PLACE_DEG.1 - 65.0);
 
 /// The game: a planet, its ground for collision, and the things on it.
 pub(crate) struct Game {
@@ -53,9 +55,9 @@ impl Game {
         // Each tower is half as far away again as the one before, and larger: mountains hide some of them.
         let row = (0..11).map(|i| {
             let distance_m = 350.0 * 1.5_f64.powi(i);
-            let aside = f64::from(i % 3 - 1) * 0.18;
+            let aside = f64::from(i % 3 - 1) * 0.18 + f64::from(i) * 0.02;
             let dir = up + (ahead + aside * ahead.cross(up)) * (distance_m / planet.radius_m());
-            Tower::on_ground(&terrain, dir, 0.02 * distance_m, 0.12 * distance_m)
+            Tower::on_ground(&terrain, dir, 0.02 * distance_m, 0.12 * distance_m).shaded(&terrain, sun_dir_planet())
         });
         let towers = Towers::new(device, renderer, row.collect())?;
         Ok(Self { planet, terrain, towers, heading_rad })
@@ -65,7 +67,7 @@ impl Game {
     pub(crate) fn view(&self, size_px: [u32; 2], quality: Quality) -> View {
         let place = LatLon::from_degrees(PLACE_DEG.0, PLACE_DEG.1);
         let radius_m = self.planet.radius_m() + self.terrain.height_m(place.direction()) + EYE_HEIGHT_M;
-        let camera = Camera::over(place, radius_m, self.heading_rad, -0.03, Camera::DEFAULT_FOV_Y_RAD);
+        let camera = Camera::over(place, radius_m, self.heading_rad, -0.14, Camera::DEFAULT_FOV_Y_RAD);
         View { camera, size_px, quality }
     }
 
@@ -79,21 +81,26 @@ impl Game {
         output: &wgpu::TextureView,
     ) -> Result<(), RenderError> {
         let size_px = camera_view.size_px;
-        let sun_dir_planet = LatLon::from_degrees(10.0, PLACE_DEG.1 - 60.0).direction();
-        let mut scene = Scene::of_planet(surface, camera_view, sun_dir_planet);
+        let mut scene = Scene::of_planet(surface, camera_view, sun_dir_planet());
+        let eye_planet_m: DVec3 = camera_view.camera.position_planet_m;
+        let towers = self.towers.seen_from(device, eye_planet_m);
+        scene.bodies[0].casters.push(&towers);
         scene.post.metering = Metering::Instant;
         let [radiance, depth, composite] = [RADIANCE_FORMAT, DEPTH_FORMAT, RADIANCE_FORMAT]
             .map(|format| view(&texture(device, "game", size_px, format)));
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let frame = renderer.prepare(&mut encoder, &scene, size_px, [0, 0, size_px[0], size_px[1]])?;
         frame.draw_opaque(&mut encoder, &OpaqueTargets::cleared(&radiance, &depth))?;
-        let eye_planet_m: DVec3 = camera_view.camera.position_planet_m;
-        self.towers.draw(device, &mut encoder, &frame, eye_planet_m, [&radiance, &depth]);
+        towers.draw(&mut encoder, &frame, [&radiance, &depth]);
         frame.draw_air(&mut encoder, &radiance, &depth, &composite)?;
         frame.draw_post(&mut encoder, &composite, output)?;
         queue.submit([encoder.finish()]);
         Ok(())
     }
+}
+
+fn sun_dir_planet() -> DVec3 {
+    LatLon::from_degrees(SUN_DEG.0, SUN_DEG.1).direction()
 }
 
 fn main() -> Result<(), Failure> {

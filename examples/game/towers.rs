@@ -1,23 +1,31 @@
-//! The game's own mesh: a row of towers on the ground, drawn between the renderer's opaque stage and its air.
+//! The game's own mesh: a row of towers on the ground, drawn into the maps of shadows and between the renderer's
+//! opaque stage and its air.
 
 #![allow(dead_code)]
 
 use tellus::glam::{DVec3, Vec3};
 use tellus::render::wgpu::util::DeviceExt as _;
-use tellus::render::{BodyId, DEPTH_FORMAT, PreparedFrame, RADIANCE_FORMAT, RenderError, Renderer, air_wgsl, wgpu};
+use tellus::render::{
+    BodyId, DEPTH_FORMAT, PreparedFrame, RADIANCE_FORMAT, RenderError, Renderer, ShadowCaster, ShadowView, air_wgsl,
+    caster_wgsl, wgpu,
+};
 use tellus::sphere::geo;
 use tellus::terrain::Terrain;
 
 /// Floats of a vertex: position and normal.
 const VERTEX_FLOATS: usize = 6;
-/// Floats of an instance: foot and three axes.
-const INSTANCE_FLOATS: usize = 12;
+/// Floats of an instance: foot, three axes, and what the ground leaves of the sun.
+const INSTANCE_FLOATS: usize = 16;
+/// Heights at which a tower knows what the ground leaves of the sun.
+const LEVELS: usize = 4;
 
 /// A tower in the planet frame.
 pub(crate) struct Tower {
     foot_planet_m: DVec3,
     width_m: f64,
     height_m: f64,
+    /// Shares of the sun's disc that the ground leaves, from the foot to the top.
+    sun_shares: [f64; LEVELS],
 }
 
 impl Tower {
@@ -29,7 +37,24 @@ impl Tower {
 
     /// A tower that stands anywhere, upright.
     pub(crate) fn at(foot_planet_m: DVec3, width_m: f64, height_m: f64) -> Self {
-        Self { foot_planet_m, width_m, height_m }
+        Self { foot_planet_m, width_m, height_m, sun_shares: [1.0; LEVELS] }
+    }
+
+    /// Finds the shadow of the ground on it. A game does so again when the sun has moved by its own width.
+    pub(crate) fn shaded(mut self, terrain: &Terrain, sun_dir_planet: DVec3) -> Self {
+        let sun_radius_rad = terrain.planet().star.radius_deg.to_radians();
+        let up = self.foot_planet_m.normalize();
+        for (level, share) in self.sun_shares.iter_mut().enumerate() {
+            let point_m = self.foot_planet_m + up * (self.height_m * level as f64 / (LEVELS - 1) as f64);
+            *share = terrain.sun_share(point_m, sun_dir_planet, sun_radius_rad);
+        }
+        self
+    }
+
+    /// A ball around it.
+    fn ball(&self) -> (DVec3, f64) {
+        let middle_m = self.foot_planet_m + self.foot_planet_m.normalize() * (0.5 * self.height_m);
+        (middle_m, (0.5 * self.height_m).hypot(self.width_m))
     }
 
     fn instance(&self, eye_planet_m: DVec3) -> [f32; INSTANCE_FLOATS] {
@@ -42,83 +67,86 @@ impl Tower {
         for (floats, vector) in floats.chunks_mut(3).zip([foot_m].into_iter().chain(axes)) {
             floats.copy_from_slice(&vector.to_array());
         }
+        for (float, share) in floats[12..].iter_mut().zip(self.sun_shares) {
+            *float = share as f32;
+        }
         floats
     }
 }
 
-/// Pipeline and buffers.
+/// Pipelines and buffers.
 pub(crate) struct Towers {
     pipeline: wgpu::RenderPipeline,
+    /// Into the maps of shadows.
+    casting: wgpu::RenderPipeline,
     mesh: wgpu::Buffer,
     vertices: u32,
     towers: Vec<Tower>,
 }
 
 impl Towers {
-    /// Compiles the game's shader behind the renderer's.
+    /// Compiles the game's shaders behind the renderer's.
     pub(crate) fn new(device: &wgpu::Device, renderer: &Renderer, towers: Vec<Tower>) -> Result<Self, RenderError> {
-        let text = air_wgsl()? + include_str!("towers.wgsl");
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("towers"),
-            source: wgpu::ShaderSource::Wgsl(text.into()),
-        });
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("towers"),
-            bind_group_layouts: &renderer.body_layouts().map(Some),
-            immediate_size: 0,
-        });
-        let vertex = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
-        let instance = wgpu::vertex_attr_array![2 => Float32x3, 3 => Float32x3, 4 => Float32x3, 5 => Float32x3];
-        let buffer = |floats: usize, step_mode, attributes| {
-            Some(wgpu::VertexBufferLayout { array_stride: floats as u64 * 4, step_mode, attributes })
+        let common = include_str!("towers.wgsl");
+        let lit = air_wgsl()? + common + include_str!("towers_lit.wgsl");
+        let cast = caster_wgsl()? + common + include_str!("towers_cast.wgsl");
+        // Depth is reversed: nearer is greater.
+        let depth = wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
         };
-        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("towers"),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("tower_vertex"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[
-                    buffer(VERTEX_FLOATS, wgpu::VertexStepMode::Vertex, &vertex[..]),
-                    buffer(INSTANCE_FLOATS, wgpu::VertexStepMode::Instance, &instance[..]),
-                ],
-            },
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("tower_fragment"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(RADIANCE_FORMAT.into())],
-            }),
-            primitive: wgpu::PrimitiveState::default(),
-            // Depth is reversed: nearer is greater.
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: DEPTH_FORMAT,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Greater),
-                stencil: wgpu::StencilState::default(),
-                bias: wgpu::DepthBiasState::default(),
-            }),
-            multisample: wgpu::MultisampleState::default(),
-            multiview_mask: None,
-            cache: None,
-        });
+        let pipeline = pipeline(device, lit, &renderer.body_layouts(), Some(RADIANCE_FORMAT), depth);
+        // Into the maps of shadows goes depth alone.
+        let casting = self::pipeline(device, cast, &[renderer.caster_layout()], None, ShadowView::depth_state());
         let mesh = prism(8);
         let vertices = (mesh.len() / VERTEX_FLOATS) as u32;
-        Ok(Self { pipeline, mesh: upload(device, &mesh), vertices, towers })
+        Ok(Self { pipeline, casting, mesh: upload(device, &mesh), vertices, towers })
     }
 
+    /// The towers as an eye sees them, for one frame.
+    pub(crate) fn seen_from(&self, device: &wgpu::Device, eye_planet_m: DVec3) -> Seen<'_> {
+        let instances: Vec<f32> = self.towers.iter().flat_map(|tower| tower.instance(eye_planet_m)).collect();
+        Seen { towers: self, instances: upload(device, &instances) }
+    }
+}
+
+/// The towers around an eye.
+pub(crate) struct Seen<'a> {
+    towers: &'a Towers,
+    instances: wgpu::Buffer,
+}
+
+impl ShadowCaster for Seen<'_> {
+    fn ball(&self) -> (DVec3, f64) {
+        let towers = &self.towers.towers;
+        let middle_m = towers.iter().map(|tower| tower.foot_planet_m).sum::<DVec3>() / towers.len().max(1) as f64;
+        let reaches = towers.iter().map(Tower::ball).map(|(center_m, radius_m)| center_m.distance(middle_m) + radius_m);
+        (middle_m, reaches.fold(0.0, f64::max))
+    }
+
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, to: &ShadowView) {
+        pass.set_pipeline(&self.towers.casting);
+        for (number, tower) in (0..).zip(&self.towers.towers) {
+            let (center_m, radius_m) = tower.ball();
+            if to.sees(center_m, radius_m) {
+                self.draw_instances(pass, number..number + 1);
+            }
+        }
+    }
+}
+
+impl Seen<'_> {
     /// Draws the towers into targets that hold the ground.
     pub(crate) fn draw(
         &self,
-        device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         frame: &PreparedFrame<'_>,
-        eye_planet_m: DVec3,
         [radiance, depth]: [&wgpu::TextureView; 2],
     ) {
         let Some(groups) = frame.body_groups(BodyId::default()) else { return };
-        let instances: Vec<f32> = self.towers.iter().flat_map(|tower| tower.instance(eye_planet_m)).collect();
         let kept = wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("towers"),
@@ -135,13 +163,68 @@ impl Towers {
             }),
             ..wgpu::RenderPassDescriptor::default()
         });
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(&self.towers.pipeline);
         pass.set_bind_group(0, groups[0], &[]);
         pass.set_bind_group(1, groups[1], &[]);
-        pass.set_vertex_buffer(0, self.mesh.slice(..));
-        pass.set_vertex_buffer(1, upload(device, &instances).slice(..));
-        pass.draw(0..self.vertices, 0..self.towers.len() as u32);
+        self.draw_instances(&mut pass, 0..self.towers.towers.len() as u32);
     }
+
+    fn draw_instances(&self, pass: &mut wgpu::RenderPass<'_>, instances: std::ops::Range<u32>) {
+        pass.set_vertex_buffer(0, self.towers.mesh.slice(..));
+        pass.set_vertex_buffer(1, self.instances.slice(..));
+        pass.draw(0..self.towers.vertices, instances);
+    }
+}
+
+/// A pipeline that draws towers.
+fn pipeline(
+    device: &wgpu::Device,
+    text: String,
+    groups: &[&wgpu::BindGroupLayout],
+    color: Option<wgpu::TextureFormat>,
+    depth: wgpu::DepthStencilState,
+) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("towers"),
+        source: wgpu::ShaderSource::Wgsl(text.into()),
+    });
+    let groups: Vec<_> = groups.iter().copied().map(Some).collect();
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("towers"),
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    });
+    let vertex = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
+    let instance =
+        wgpu::vertex_attr_array![2 => Float32x3, 3 => Float32x3, 4 => Float32x3, 5 => Float32x3, 6 => Float32x4];
+    let buffer = |floats: usize, step_mode, attributes| {
+        Some(wgpu::VertexBufferLayout { array_stride: floats as u64 * 4, step_mode, attributes })
+    };
+    let targets = [color.map(wgpu::ColorTargetState::from)];
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("towers"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("tower_vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[
+                buffer(VERTEX_FLOATS, wgpu::VertexStepMode::Vertex, &vertex[..]),
+                buffer(INSTANCE_FLOATS, wgpu::VertexStepMode::Instance, &instance[..]),
+            ],
+        },
+        fragment: color.is_some().then(|| wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("tower_fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &targets,
+        }),
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(depth),
+        multisample: wgpu::MultisampleState::default(),
+        multiview_mask: None,
+        cache: None,
+    })
 }
 
 fn upload(device: &wgpu::Device, floats: &[f32]) -> wgpu::Buffer {

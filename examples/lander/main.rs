@@ -210,8 +210,10 @@ impl Pictures {
         scene.post.metering = Metering::Instant;
         // From orbit the renderer's own near plane lies behind the lander.
         scene.projection.near_m = Some(1.0);
-        let lander = vec![Tower::at(lander.position_m, FEET_RADIUS_M, HEIGHT_M)];
-        let mesh = Towers::new(&self.device, &self.renderer, lander)?;
+        let lander = Tower::at(lander.position_m, FEET_RADIUS_M, HEIGHT_M).shaded(terrain, sun_dir_planet);
+        let mesh = Towers::new(&self.device, &self.renderer, vec![lander])?;
+        let seen = mesh.seen_from(&self.device, eye_m);
+        scene.bodies[0].casters.push(&seen);
         let target = texture(&self.device, "picture", SIZE_PX, wgpu::TextureFormat::Rgba8UnormSrgb);
         let [radiance, depth, composite] = [RADIANCE_FORMAT, DEPTH_FORMAT, RADIANCE_FORMAT]
             .map(|format| view(&texture(&self.device, "lander", SIZE_PX, format)));
@@ -219,7 +221,7 @@ impl Pictures {
         let [width, height] = SIZE_PX;
         let frame = self.renderer.prepare(&mut encoder, &scene, SIZE_PX, [0, 0, width, height])?;
         frame.draw_opaque(&mut encoder, &OpaqueTargets::cleared(&radiance, &depth))?;
-        mesh.draw(&self.device, &mut encoder, &frame, eye_m, [&radiance, &depth]);
+        seen.draw(&mut encoder, &frame, [&radiance, &depth]);
         frame.draw_air(&mut encoder, &radiance, &depth, &composite)?;
         frame.draw_post(&mut encoder, &composite, &view(&target))?;
         self.queue.submit([encoder.finish()]);

@@ -13,6 +13,7 @@
 //! - post-process: `exposure` (compute), `bloom`, `tonemap` with `tone` and `white_balance`, `antialias`, `display`
 //! - `history`: what a view keeps for its next frame: clouds while the camera moves, and `still`, the mean of a still
 //!   scene
+//! - `caster`: things of a game that cast shadows
 //! - `photo`: pictures of any size, in tiles, of many samples, through a lens
 //! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps`
 //!   (of `material_kinds`, by `material_noise`)
@@ -31,6 +32,7 @@ mod biome_table;
 mod bloom;
 mod body_tiles;
 mod border_tile;
+mod caster;
 mod cloud_map;
 mod clouds;
 mod copy;
@@ -77,6 +79,7 @@ mod white_balance;
 mod worlds;
 
 pub use biome_table::MarkedCells;
+pub use caster::{ShadowCaster, ShadowView};
 #[cfg(feature = "cli")]
 pub(crate) use cloud_map::cloud_keyframe;
 pub use error::RenderError;
@@ -90,7 +93,7 @@ pub use renderer::Renderer;
 pub use scene::{
     Body, BodyId, DebugView, Matrices, Point, Post, Projection, Reuse, Scene, Sun, ViewId, split_position,
 };
-pub use shaders::air_wgsl;
+pub use shaders::{air_wgsl, caster_wgsl};
 pub use shared::{MAX_POINTS, MAX_SUNS};
 pub use sky_probe::SkyAnswer;
 pub use targets::{DEPTH_FORMAT, RADIANCE_FORMAT};

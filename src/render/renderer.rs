@@ -308,10 +308,7 @@ impl Renderer {
             let mut is_other = body_view.planting.show(device, body, &mut values);
             if let Some(cascades) = &cascades {
                 cascades.write(&mut values);
-                if body_view.shadows.as_ref().is_none_or(|map| map.side_px != cascades.side_px) {
-                    body_view.shadows = Some(ShadowMap::new(device, cascades.side_px));
-                    is_other = true;
-                }
+                is_other |= ShadowMap::fit(&mut body_view.shadows, device, cascades);
             }
             if is_other {
                 let rest = (body_view.shadows.as_ref(), Some(&body_view.planting));
@@ -336,7 +333,7 @@ impl Renderer {
                 let (models, tiles) = (&mut resources.models, &mut resources.tiles);
                 life.prepare((device, queue), models, tiles, body, &lod_view, cascades.as_ref());
                 let objects = (&resources.models, &*life, cascades.as_ref().zip(body_view.shadows.as_ref()));
-                self.pipelines.life.cast(device, encoder, objects);
+                self.pipelines.life.cast((device, encoder), objects, &body.casters);
                 let groups = [&body_view.group, resources.luts.group()];
                 self.pipelines.life.light(device, encoder, groups, &resources.tiles, life);
             } else {

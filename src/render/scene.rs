@@ -4,6 +4,7 @@
 //! the planet frame of [`crate`]: the renderer draws each body in that frame, relative to the eye.
 
 use super::biome_table::MarkedCells;
+use super::caster::ShadowCaster;
 use super::exposure::Metering;
 use super::tone::Tone;
 use crate::life::HiddenObjects;
@@ -123,13 +124,16 @@ pub struct Body<'a> {
     /// Objects that are not drawn and cast no shadow: those that the game has felled or taken. Where single objects are
     /// too far to be drawn, they still count for the canopy.
     pub hidden: Option<&'a HiddenObjects>,
+    /// Things of the game that cast shadows of the first sun. They are drawn by the game.
+    pub casters: Vec<&'a dyn ShadowCaster>,
 }
 
 impl<'a> Body<'a> {
     /// A body at a position in scene space, its axes those of the scene. Its planet is the surface's own.
     pub fn new(id: BodyId, surface: &'a Surface, position_m: DVec3) -> Self {
         let (revision, scene_from_body) = (surface.terrain.revision().clone(), DQuat::IDENTITY);
-        Self { id, revision, surface, position_m, scene_from_body, frozen: None, marked: None, hidden: None }
+        let (frozen, marked, hidden, casters) = (None, None, None, Vec::new());
+        Self { id, revision, surface, position_m, scene_from_body, frozen, marked, hidden, casters }
     }
 
     /// The planet.

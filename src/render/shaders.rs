@@ -74,13 +74,23 @@ pub fn resolve(entry: &str) -> Result<Resolved, RenderError> {
 }
 
 /// WGSL for the shaders of a game that draws in the air of a body: `light_at` (irradiance of suns and sky on a
-/// surface), `haze_before` (aerial perspective of a point) and the uniforms. Append the game's source to it. It uses
-/// bind groups 0 and 1 ([`super::Renderer::body_layouts`]), so the game's own groups begin at 2.
+/// surface), `shaded_light_at` (the same in shadows), `haze_before` (aerial perspective of a point) and the uniforms.
+/// Append the game's source to it. It uses bind groups 0 and 1 ([`super::Renderer::body_layouts`]), so the game's own
+/// groups begin at 2.
 ///
 /// # Errors
 /// [`RenderError::Shader`]: a file of `shaders/` was edited on disk and an include is missing.
 pub fn air_wgsl() -> Result<String, RenderError> {
     Ok(resolve("air_api.wgsl")?.text)
+}
+
+/// WGSL for the shaders of a game that draw a [`super::ShadowCaster`]: `shadow_view`, in bind group 0
+/// ([`super::Renderer::caster_layout`]). Append the game's source to it; the game's own groups begin at 1.
+///
+/// # Errors
+/// As [`air_wgsl`].
+pub fn caster_wgsl() -> Result<String, RenderError> {
+    Ok(resolve("caster_api.wgsl")?.text)
 }
 
 fn append(

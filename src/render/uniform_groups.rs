@@ -2,7 +2,7 @@
 //! map.
 
 use super::gpu;
-use super::life::{PlantingBuffer, ShadowMap};
+use super::life::{CASCADES, PlantingBuffer, ShadowMap};
 use super::uniforms::{self, UniformBuffer};
 
 /// Makes the groups of uniforms.
@@ -10,7 +10,7 @@ pub(crate) struct UniformGroups {
     pub(crate) layout: wgpu::BindGroupLayout,
     samplers: [wgpu::Sampler; 2],
     comparison: wgpu::Sampler,
-    /// Stands in where no object casts a shadow.
+    /// Stands in where nothing casts a shadow.
     no_shadows: ShadowMap,
     /// Stands in where no edit changes what stands on the ground.
     no_planting: PlantingBuffer,
@@ -19,7 +19,7 @@ pub(crate) struct UniformGroups {
 impl UniformGroups {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         let samplers = gpu::samplers(device);
-        let (comparison, no_shadows) = (gpu::comparison_sampler(device), ShadowMap::new(device, 1));
+        let (comparison, no_shadows) = (gpu::comparison_sampler(device), ShadowMap::new(device, 1, CASCADES));
         let no_planting = PlantingBuffer::new(device);
         Self { layout: uniforms::layout(device), samplers, comparison, no_shadows, no_planting }
     }

@@ -12,8 +12,8 @@
 //! - `evaluate`: the pipeline that makes a height from all of these, for queries and tiles
 //! - `biome`, `border`: the biome of a point; border jitter
 //! - `builder`: terrains that take over what another one has
-//! - `query`, `checked`, `raycast`, `contact`, `nearest`: the queries of [`Terrain`]; `water`: water, wind and
-//!   rain at points
+//! - `query`, `checked`, `raycast`, `contact`, `nearest`: the queries of [`Terrain`]; `sunlight`: the shadow of the
+//!   ground at points; `water`: water, wind and rain there
 //! - `contours`: coasts and other lines of equal height; `chunk`: ground for physics engines; `ground`: ground that is
 //!   kept near those who move on it, and a walker
 //! - `network`: rivers from source to mouth, lakes, basins; `by_hand`: plates that are changed by hand
@@ -58,6 +58,7 @@ mod raycast;
 pub(crate) mod relief;
 pub mod revision;
 mod scalar;
+mod sunlight;
 mod water;
 pub(crate) mod wet;
 

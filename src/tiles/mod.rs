@@ -2,7 +2,7 @@
 //!
 //! - `make`: one tile from one node, stage by stage; `mesh`: its vertices; `deviation`: their heights above coarser
 //!   meshes
-//! - `detail`: detail textures; `horizon`: horizon angles
+//! - `detail`: detail textures; `horizon`: horizon angles; `sunlight`: the shadow of the ground at a place by them
 //! - `cache`: tiles of earlier requests, whole or as inputs for stages
 //! - `refine`: the LOD cut of a view; `sew`: seams between its tiles
 //! - [`builder`]: surfaces in the background; `worker`: its thread
@@ -17,6 +17,7 @@ mod mesh;
 mod refine;
 mod sew;
 mod stats;
+mod sunlight;
 mod worker;
 
 pub use builder::{BuildProgress, Builder, BuilderOptions};

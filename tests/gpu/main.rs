@@ -4,6 +4,7 @@
 //! - `air`, `sky`: the atmosphere, against goldens and against the CPU reference
 //! - `albedo`: what grounds, seas and clouds reflect, from orbit
 //! - `biomes`, `colours`, `materials`: the colours of the ground
+//! - `casters`: things of a game: the shadows that they cast, and those that fall on them
 //! - `clouds`: clouds over time, drafts of their maps
 //! - `cloud_edges`: clouds near the horizon: stairs and stripes
 //! - `cloud_light`: light under clouds: rain, fog, night
@@ -24,6 +25,7 @@
 mod air;
 mod albedo;
 mod biomes;
+mod casters;
 mod cloud_edges;
 mod cloud_light;
 mod clouds;

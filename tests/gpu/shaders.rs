@@ -6,7 +6,7 @@ use tellus::render::shaders::{self, entries};
 
 #[test]
 fn every_entry_parses_and_validates() {
-    for entry in entries().into_iter().chain(["air_api.wgsl"]) {
+    for entry in entries().into_iter().chain(["air_api.wgsl", "caster_api.wgsl"]) {
         if let Err(error) = shaders::check(entry) {
             panic!("{error}");
         }

@@ -125,6 +125,60 @@ fn compare_shadows(places: &[Shady]) {
     }
 }
 
+/// What a game asks about the shadow of the ground: horizon angles agree with rays, and a tower's top sees more.
+#[test]
+fn the_shadow_of_the_ground_at_a_point_is_told_by_horizons_and_by_rays() {
+    let (file, lat, lon, altitude_m, pitch, (height_deg, azimuth_deg)) = SHADY[1];
+    let planet = bare(file);
+    let view = view(&planet, lat, lon, altitude_m, pitch);
+    let surface = surface_of(&planet, &view);
+    let terrain = &surface.terrain;
+    let up = LatLon::from_degrees(lat, lon).direction();
+    let (east, north) = geo::east_north(up);
+    let (sin, cos) = azimuth_deg.to_radians().sin_cos();
+    let (rise, along) = height_deg.to_radians().sin_cos();
+    let (sun_dir, radius_rad) = (up * rise + (north * cos + east * sin) * along, 0.0047);
+    let eye_m = view.camera.position_planet_m;
+    let picture = lights(&gpu().draw(&frame(&planet, &surface, view, sun_dir)));
+    let (mut dark, mut lit, mut apart, mut unlike) = (0, 0, 0, 0);
+    let mut seconds = [0.0; 2];
+    let [width, height] = SIZE_PX.map(f64::from);
+    for (x, y) in (2..SIZE_PX[0]).step_by(5).flat_map(|x| (2..SIZE_PX[1]).step_by(5).map(move |y| (x, y))) {
+        let [u, v] = [(f64::from(x) + 0.5) / width * 2.0 - 1.0, 1.0 - (f64::from(y) + 0.5) / height * 2.0];
+        let ray = view.camera.ray_dir_planet(u, v, view.aspect());
+        let Some(distance_m) = terrain.raycast(eye_m, ray) else { continue };
+        // Slightly above the ground: tiles seen from afar do not have its finest relief.
+        let ground_m = eye_m + ray * distance_m;
+        let place_m = ground_m + ground_m.normalize() * (distance_m * view.pixel_rad() * 0.2);
+        let begin = std::time::Instant::now();
+        let by_rays = terrain.sun_share(place_m, sun_dir, radius_rad);
+        seconds[0] += begin.elapsed().as_secs_f64();
+        let begin = std::time::Instant::now();
+        let by_horizon = surface.sun_share(place_m, sun_dir, radius_rad).unwrap();
+        seconds[1] += begin.elapsed().as_secs_f64();
+        assert!((0.0..=1.0).contains(&by_rays) && (0.0..=1.0).contains(&by_horizon), "{by_rays} {by_horizon}");
+        // The middle of the disc decides for a disc without width.
+        let middle = terrain.sun_share(place_m, sun_dir, 0.0);
+        assert!((by_rays - 0.5).abs() < 0.05 || (by_rays > 0.5) == (middle > 0.5), "{by_rays} {middle}");
+        *(if by_rays > 0.5 { &mut lit } else { &mut dark }) += 1;
+        apart += usize::from((by_rays - by_horizon).abs() > 0.5);
+        let is_drawn_lit = picture[(y * SIZE_PX[0] + x) as usize] > 12;
+        unlike += usize::from((by_horizon - 0.5).abs() > 0.45 && (by_horizon > 0.5) != is_drawn_lit);
+        // From high enough every point is lit.
+        assert_eq!(terrain.sun_share(place_m * 1.01, sun_dir, radius_rad), 1.0);
+    }
+    let told = format!(
+        "{lit} lit, {dark} dark; {apart} where horizons and rays are apart, {unlike} where the picture is unlike the \
+         horizons; {seconds:.4?} s by rays and by horizons"
+    );
+    eprintln!("{told}");
+    // Rays and horizons are apart along the edges of shadows; ground at grazing light is dim.
+    assert!(lit > 50 && dark > 30 && apart * 7 < lit + dark && unlike * 12 < lit + dark, "{told}");
+    // At night there is no sun.
+    assert_eq!(terrain.sun_share(up * terrain.planet().radius_m(), -up, radius_rad), 0.0);
+    assert_eq!(surface.sun_share(up * terrain.planet().radius_m(), -up, radius_rad), Some(0.0));
+}
+
 #[test]
 fn at_noon_nothing_is_in_shadow() {
     let mut gpu = gpu();

@@ -65,8 +65,10 @@ impl Cover {
         }
         let share = 1.0 / f64::from(TURNS);
         let even = share * evened(sunlight(&near, 0), sunlight(&mesh, LEVELS - 1), sunlight(&mesh, LEVELS - 1));
-        out.sky = out.sky.map(|sum| sum * even);
-        out.sun = out.sun.map(|sums| sums.map(|sum| sum * even));
+        // From above all levels show the same tops.
+        let from = |view: usize| if view == 0 { share } else { even };
+        out.sky = std::array::from_fn(|view| out.sky[view] * from(view));
+        out.sun = std::array::from_fn(|view| out.sun[view].map(|sum| sum * from(view)));
         out
     }
 }

@@ -5,7 +5,7 @@
 //! - `models`: meshes on the GPU
 //! - `material`: their materials (`life_material.wgsl`)
 //! - `view`: which objects a view draws, at which level of detail
-//! - `shadow`: their shadows (`life_shadow.wgsl`)
+//! - `shadow`: their shadows (`life_shadow.wgsl`), and those of a game's things
 //! - `pass`: their light (`life_light.wgsl`, compute) and their drawing (`life.wgsl`)
 
 mod canopy;
@@ -21,5 +21,5 @@ pub(crate) use material::Material;
 pub(crate) use models::LifeModels;
 pub(crate) use pass::{LifePass, LifeTargets};
 pub(crate) use planting::PlantingBuffer;
-pub(crate) use shadow::{CASCADES, Cascades, ShadowMap};
+pub(crate) use shadow::{CASCADES, Cascades, SHADOW_MAPS, ShadowMap};
 pub(crate) use view::LifeView;

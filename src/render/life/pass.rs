@@ -1,13 +1,13 @@
 //! Light on objects and their drawing: pipelines, and the buffers of a view.
 
 use super::models::{ATTRIBUTES, LifeModels, Vertex};
-use super::shadow::{Cascades, ShadowMap};
+use super::shadow::{Cascades, SKY_MAP, ShadowMap};
 use super::view::{Draw, Instance, LifeView};
 use crate::render::body_tiles::BodyTiles;
 use crate::render::horizon_pool::HORIZON;
 use crate::render::screen_pass::Shared;
 use crate::render::targets::{RADIANCE_FORMAT, Target};
-use crate::render::{FrameStats, RenderError, gpu, shaders};
+use crate::render::{FrameStats, RenderError, ShadowCaster, gpu, shaders};
 use wgpu::util::DeviceExt;
 
 const ENTRY: &str = "life.wgsl";
@@ -25,6 +25,8 @@ pub(crate) struct LifePass {
     shadow: wgpu::RenderPipeline,
     drawn: wgpu::BindGroupLayout,
     lit: wgpu::BindGroupLayout,
+    /// A map of shadows, and the objects that are drawn into it.
+    caster: wgpu::BindGroupLayout,
     cast: wgpu::BindGroupLayout,
 }
 
@@ -102,17 +104,17 @@ impl LifePass {
         let drawn = buffers(device, wgpu::ShaderStages::VERTEX, &[storage(true), storage(true)]);
         let kinds = [storage(true), storage(false), wgpu::BufferBindingType::Uniform];
         let lit = buffers(device, wgpu::ShaderStages::COMPUTE, &kinds);
-        let kinds = [storage(true), wgpu::BufferBindingType::Uniform];
-        let cast = buffers(device, wgpu::ShaderStages::VERTEX, &kinds);
+        let caster = buffers(device, wgpu::ShaderStages::VERTEX_FRAGMENT, &[wgpu::BufferBindingType::Uniform]);
+        let cast = buffers(device, wgpu::ShaderStages::VERTEX, &[storage(true)]);
         let formats =
             [Target::Radiance, Target::GroundSurface].map(|target| target.format().unwrap_or(RADIANCE_FORMAT));
         let nearer = wgpu::CompareFunction::Greater;
         let draw = mesh_pipeline(device, ENTRY, &[shared.uniforms, &drawn], (&ATTRIBUTES, &formats, nearer))?;
         // Depth from the sun is not reversed.
         let nearer = wgpu::CompareFunction::Less;
-        let shadow = mesh_pipeline(device, SHADOW_ENTRY, &[&cast], (&ATTRIBUTES[..1], &[], nearer))?;
+        let shadow = mesh_pipeline(device, SHADOW_ENTRY, &[&caster, &cast], (&ATTRIBUTES[..1], &[], nearer))?;
         let light = Self::light_pipeline(device, shared, &lit)?;
-        Ok(Self { draw, light, shadow, drawn, lit, cast })
+        Ok(Self { draw, light, shadow, drawn, lit, caster, cast })
     }
 
     fn light_pipeline(
@@ -164,26 +166,29 @@ impl LifePass {
         }
     }
 
-    /// Draws the depth of objects from the sun into the shadow map of a view.
+    /// Layout of the group that tells shaders about a map of shadows.
+    pub(crate) fn caster_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.caster
+    }
+
+    /// Draws the depth of objects and of a game's things from the sun into the maps of shadows of a view.
     pub(crate) fn cast(
         &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
+        (device, encoder): (&wgpu::Device, &mut wgpu::CommandEncoder),
         (models, view, shadows): (&LifeModels, &LifeView, Option<(&Cascades, &ShadowMap)>),
+        casters: &[&dyn ShadowCaster],
     ) {
-        let (Some((cascades, map)), Some(buffers)) = (shadows, view.buffers.as_ref()) else { return };
-        for (cascade, (draws, layer)) in view.casts.iter().zip(&map.layers).enumerate() {
-            let matrix = cascades.clip_from_rel_m[cascade].to_cols_array();
+        let Some((cascades, map)) = shadows else { return };
+        for (number, (to, layer)) in cascades.views().iter().zip(&map.layers).enumerate() {
             let matrix = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("cascade"),
-                contents: bytemuck::cast_slice(&matrix),
+                label: Some("map of shadows"),
+                contents: bytemuck::cast_slice(&to.clip_from_rel_m.to_cols_array()),
                 usage: wgpu::BufferUsages::UNIFORM,
             });
-            let resources = [&buffers.casting, &matrix].map(wgpu::Buffer::as_entire_binding);
-            let group = gpu::group(device, "cascade", &self.cast, resources);
+            let group = gpu::group(device, "map of shadows", &self.caster, [matrix.as_entire_binding()]);
             let depth_ops = Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store });
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("shadows of objects"),
+                label: Some("shadows"),
                 depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                     view: layer,
                     depth_ops,
@@ -191,9 +196,22 @@ impl LifePass {
                 }),
                 ..wgpu::RenderPassDescriptor::default()
             });
-            pass.set_pipeline(&self.shadow);
             pass.set_bind_group(0, &group, &[]);
-            draw_parts(&mut pass, models, draws);
+            let draws = view.casts.get(number).filter(|draws| !draws.is_empty());
+            if let Some((draws, buffers)) = draws.zip(view.buffers.as_ref()) {
+                let objects = gpu::group(device, "casting", &self.cast, [buffers.casting.as_entire_binding()]);
+                pass.set_pipeline(&self.shadow);
+                pass.set_bind_group(1, &objects, &[]);
+                draw_parts(&mut pass, models, draws);
+            }
+            let is_seen = |caster: &&&dyn ShadowCaster| {
+                let (center_planet_m, radius_m) = caster.ball();
+                number != SKY_MAP && to.sees(center_planet_m, radius_m)
+            };
+            for caster in casters.iter().filter(is_seen) {
+                pass.set_bind_group(0, &group, &[]);
+                caster.draw(&mut pass, to);
+            }
         }
     }
 

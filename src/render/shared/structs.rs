@@ -4,7 +4,7 @@ use super::constants::{
     BAND_ENTRIES, BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_OCCLUDERS, MAX_POINTS, MAX_STORMS, MAX_SUNS,
     RING_CLASSES, RING_ENTRIES, VARIATION_OCTAVES, WAVES,
 };
-use crate::render::life::CASCADES;
+use crate::render::life::SHADOW_MAPS;
 use crate::render::wgsl::uniform_struct;
 use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
 
@@ -375,14 +375,16 @@ uniform_struct! {
         marked: u32,
         /// 1 where there are rivers and lakes.
         has_rivers: u32,
-        /// Metres from the eye to clip space of each cascade of the shadows of objects.
-        shadow_from_rel_m: [Mat4; CASCADES],
+        /// Metres from the eye to clip space of each map of shadows.
+        shadow_from_rel_m: [Mat4; SHADOW_MAPS],
         /// Light that crowns let through to objects below, as shares of the sun's.
         through_leaves: Vec3,
         /// 1 where objects cast shadows.
         has_shadows: u32,
-        /// Width of a texel of each cascade.
-        shadow_texel_m: Vec2,
+        /// Width of a texel of each map of shadows.
+        shadow_texel_m: Vec3,
+        /// 1 where things of a game cast shadows.
+        has_casters: u32,
         /// Squares of the planting map; 0 without one.
         planting_levels: u32,
         /// Tangents along the sides of its squares, and the eye's place along them.
