@@ -73,7 +73,7 @@ pub struct Scenery {
     pub reach_m: Vec<f64>,
     /// For each population of the planet, the cover of its form; None for those that are off.
     pub(crate) covers: Vec<Option<Cover>>,
-    /// What edits make of the populations; None where no edit changes what stands on the ground.
+    /// What edits, water, ridges and hollows make of the populations; None where they change nothing, or not yet.
     #[cfg(feature = "render")]
     pub(crate) planting: Option<Arc<PlantingMap>>,
 }
@@ -193,7 +193,8 @@ impl SceneryCache {
         scenery.cells = cells.filter(|cell| !cell.objects.is_empty()).cloned().collect();
         #[cfg(feature = "render")]
         {
-            scenery.planting = self.planting.around(terrain, view.camera.position_planet_m);
+            let (planting, is_whole_map) = self.planting.around(terrain, view.camera.position_planet_m, keep_going);
+            (scenery.planting, is_whole) = (planting, is_whole && is_whole_map);
         }
         self.trim(&scenery);
         (scenery, is_whole)

@@ -31,6 +31,16 @@ impl Suitability {
 
     /// Share of the density of the population that the ground at a sample bears, 0 to 1.
     pub(super) fn at(&self, sample: &Sample) -> f64 {
+        self.apart_from_bank(sample) * self.by_bank(sample)
+    }
+
+    /// The part of it that the distance from water leaves.
+    pub(super) fn by_bank(&self, sample: &Sample) -> f64 {
+        self.population.by_bank(sample.bank_m.unwrap_or(f64::INFINITY))
+    }
+
+    /// The share where the distance from water would suit.
+    pub(super) fn apart_from_bank(&self, sample: &Sample) -> f64 {
         let population = &self.population;
         if !self.biomes.get(sample.biome).is_some_and(|stands| *stands) || !self.is_dry(sample) {
             return 0.0;
@@ -41,6 +51,7 @@ impl Suitability {
             * between(above_m, population.height_from_m, population.height_to_m, SOFT_M)
             * between(sample.temperature_c, population.temperature_from_c, population.temperature_to_c, SOFT_C)
             * between(sample.moisture, population.moisture_from, population.moisture_to, SOFT_MOISTURE)
+            * population.by_curvature(sample.curvature)
     }
 
     /// The same after edits: where it is dry enough, strokes plant also what no rule puts there.

@@ -13,7 +13,7 @@
 //! - `biome`, `border`: the biome of a point; border jitter
 //! - `builder`: terrains that take over what another one has
 //! - `query`, `checked`, `raycast`, `contact`, `nearest`: the queries of [`Terrain`]; `water`: water, wind and
-//!   rain at points
+//!   rain at points; `curvature`: ridges and hollows
 //! - `contours`: coasts and other lines of equal height; `chunk`: ground for physics engines; `ground`: ground that is
 //!   kept near those who move on it, and a walker
 //! - `network`: rivers from source to mouth, lakes, basins; `by_hand`: plates that are changed by hand
@@ -38,6 +38,7 @@ pub(crate) mod climate;
 pub(crate) mod coarse;
 mod contact;
 mod contours;
+mod curvature;
 mod curve_inputs;
 pub(crate) mod edits;
 mod effects;
@@ -90,6 +91,7 @@ use landform::{Landform, Maps};
 pub use nearest::{Place, Search};
 pub use network::{Basin, Course, CoursePoint, Lake, Mouth, Rivers};
 use points::unit;
+pub use curvature::CURVATURE_M;
 pub use query::{Detail, Sample, Scratch, Wanted};
 use relief::Relief;
 pub use revision::Revision;
