@@ -288,9 +288,8 @@ impl<'a> Evaluator<'a> {
             curvature: a.curvature || b.curvature,
         };
         let planet = self.terrain.planet();
-        let of_map = |map: &Map| {
-            map.wanted().map(|wanted| if map.shows_life() { wanted.and_for_life(planet) } else { wanted })
-        };
+        let of_map =
+            |map: &Map| map.wanted().map(|wanted| if map.shows_life() { wanted.and_for_life(planet) } else { wanted });
         if let Some(wanted) = maps.iter().filter_map(of_map).reduce(both) {
             self.terrain.samples_spaced_into(dirs, spacing_rad, wanted, samples, scratch);
         }

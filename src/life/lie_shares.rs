@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Levels from a tile to its samples: 16 along a side.
 const DEEPER: u8 = 4;
 const SIDE: usize = 1 << DEEPER;
-/// Samples along a side of a part of a tile over which the shares of curvatures are averaged where samples are far apart.
+/// Samples along a side of a part of a tile whose mean curvature share counts where samples are far apart.
 const PART: usize = 4;
 /// Distance between samples, metres, from which they are: hollows and ridges are finer.
 const COARSE_M: f64 = 200.0;
@@ -53,8 +53,8 @@ impl LieShares {
         tiles: &[NodeId],
         keep_going: &(dyn Fn() -> bool + Sync),
     ) -> bool {
-        let rules: Vec<_> = asks.iter().map(|one| one.population.placed()).collect();
-        let keyed = tiles.par_iter().map(|tile| (*tile, Key::of(&(&rules, terrain.tile_keys_at(*tile)))));
+        let rules = Key::of(&asks.iter().map(|one| one.population.placed()).collect::<Vec<_>>());
+        let keyed = tiles.par_iter().map(|tile| (*tile, Key::of(&(rules, terrain.tile_keys_at(*tile)))));
         let keyed: Vec<(NodeId, Key)> = keyed.collect();
         if self.0.len() + keyed.len() > MOST_KEPT {
             self.0.clear();

@@ -1,5 +1,5 @@
-//! Planting map: what edits make of populations around an eye, and what water, ridges and hollows make of those that ask
-//! for them, for what is seen of the canopy from afar.
+//! Planting map: what edits make of populations around an eye, and what water, ridges and hollows make of those that
+//! ask for them, for what is seen of the canopy from afar.
 //!
 //! It is a row of squares of texels around one place, on the plane that touches the sphere there, each twice as wide as
 //! the one before; the last one covers the whole side of the planet. `planting.wgsl` reads it.
@@ -103,8 +103,8 @@ pub(super) struct PlantingMaps {
 }
 
 impl PlantingMaps {
-    /// The map around an eye, and whether it is that of the terrain as it is; None where neither edits nor water, ridges
-    /// and hollows change what stands on the ground. While `keep_going` says no, the last one that is there.
+    /// The map around an eye, and whether it is that of the terrain as it is; None where neither edits nor water,
+    /// ridges and hollows change what stands on the ground. While `keep_going` says no, the last one that is there.
     pub(super) fn around(
         &mut self,
         terrain: &Terrain,
@@ -358,7 +358,7 @@ fn packed(Planting { keep, add }: Planting) -> u32 {
 mod tests {
     use super::*;
     use crate::planet::edits::{EditPoint, GroundEdit, LifePaint};
-    use crate::planet::{Planet, Population, Tool};
+    use crate::planet::{Layer, Planet, Population, Shape, Tool};
     use crate::sphere::LatLon;
 
     fn terrain(strokes: &[(&str, f64, f64)]) -> Terrain {
@@ -377,7 +377,10 @@ mod tests {
     fn at(map: &PlantingMap, channel: u32, eye: DVec3, radius_m: f64, east_m: f64) -> [f64; 2] {
         let (east, _) = geo::east_north(eye);
         let place = (eye * radius_m + east * east_m).normalize() * radius_m;
-        let [x_m, y_m] = [place.dot(map.east), place.dot(map.north)];
+        texel_at(map, channel, [place.dot(map.east), place.dot(map.north)])
+    }
+
+    fn texel_at(map: &PlantingMap, channel: u32, [x_m, y_m]: [f64; 2]) -> [f64; 2] {
         let half = SIDE as f64 / 2.0;
         let level = (x_m.abs().max(y_m.abs()) / ((half - 1.0) * map.texel_m)).max(1.0).log2().ceil();
         let texel = |along_m: f64| (along_m / (map.texel_m * level.exp2()) + half) as usize;
@@ -420,6 +423,56 @@ mod tests {
                 assert!(near(found[0], oak) && near(found[1], palm), "{above_m} {east_m} {found:?}");
             }
             assert!(compared > 0, "{above_m}");
+        }
+    }
+
+    /// Pixels know neither water nor ridges: the map must tell of them what objects find.
+    #[test]
+    fn the_map_tells_what_water_ridges_and_hollows_leave_in_the_mean() {
+        let ask = |name: &str, bank_to_m: f64, curvature_from: f64| {
+            let asking = Population { bank_to_m, curvature_from, slope_to_deg: 90.0, ..Population::default() };
+            Population { name: name.to_owned(), ..asking }
+        };
+        let life = vec![ask("Any", 10_000.0, -1.0), ask("Ridge", 10_000.0, 0.0), ask("Shore", 200.0, -1.0)];
+        let shape = crate::planet::Fbm { wavelength_km: 1.0, octaves: 6, ..Default::default() };
+        let hills = Layer { amplitude_m: 120.0, shape: Shape::Fbm(shape), ..Layer::default() };
+        let water = Some(crate::planet::Water::default());
+        let planet = Planet { life, layers: vec![hills], water, radius_km: 600.0, ..Planet::default() };
+        let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
+        let (radius_m, eye) = (planet.radius_m(), LatLon::from_degrees(20.0, 30.0).direction());
+        let (east, north) = geo::east_north(eye);
+        // The greatest differences of means over a patch, and in the mean over its places.
+        for (above_m, most_mean, most_single) in [(2.0, 0.01, 0.03), (900.0, 0.04, 0.35)] {
+            let mut maps = PlantingMaps::default();
+            let (none, is_whole) = maps.around(&terrain, eye * (radius_m + above_m + 200.0), &|| false);
+            assert!(none.is_none() && !is_whole, "it was stopped");
+            let ground_m = terrain.height_m(eye).max(0.0);
+            let map = maps.around(&terrain, eye * (radius_m + ground_m + above_m), &|| true).0.unwrap();
+            let channels = [1, 2].map(|population: usize| map.populations[population].unwrap().0);
+            assert_eq!((map.populations[0], channels), (Some((0, false)), [1, 2]));
+            let side = 40;
+            let places =
+                (0..side * side).map(|i| [i % side, i / side].map(|at| 2.4 * (f64::from(at) + 0.5) / 40.0 - 1.2));
+            let places: Vec<DVec3> = places
+                .map(|[x, y]| (eye * radius_m + (east * x + north * y) * (40.0 * map.texel_m)).normalize())
+                .collect();
+            let samples = terrain.samples(&places, crate::terrain::Wanted::ALL);
+            for (population, channel) in [1, 2].into_iter().zip(channels) {
+                let asked = &planet.life[population];
+                let pairs =
+                    places.iter().zip(&samples).filter(|(_, sample)| sample.height_m > 0.0).map(|(dir, sample)| {
+                        let (map_x, map_y) = (dir.dot(map.east) * radius_m, dir.dot(map.north) * radius_m);
+                        let wanted = asked.by_bank(sample.bank_m.unwrap()) * asked.by_curvature(sample.curvature);
+                        (texel_at(&map, channel, [map_x, map_y])[0], wanted)
+                    });
+                let pairs: Vec<(f64, f64)> = pairs.collect();
+                let count = pairs.len() as f64;
+                let mean = |of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / count;
+                let (told, wanted) = (mean(&|pair| pair.0), mean(&|pair| pair.1));
+                let single = mean(&|pair| (pair.0 - pair.1).abs());
+                println!("{above_m} {population}: map {told:.3}, places {wanted:.3}, single {single:.3}");
+                assert!((told - wanted).abs() < most_mean && single < most_single, "{above_m} {population} {single}");
+            }
         }
     }
 

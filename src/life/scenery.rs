@@ -109,7 +109,8 @@ fn reaches_m(placements: &[Placement], quality: Quality) -> Vec<f64> {
     let hides = |own: &Population, other: &Population| {
         let meets =
             own.biomes.is_empty() || other.biomes.is_empty() || own.biomes.chars().any(|key| other.stands_in(key));
-        meets && area(other) > area(own) && other.height_m > 0.5 * own.height_m
+        // One that asks for banks or ridges is not everywhere.
+        meets && !other.asks_lie() && area(other) > area(own) && other.height_m > 0.5 * own.height_m
     };
     let own_m: Vec<f64> = placements.iter().map(|placement| own_reach_m(placement, quality)).collect();
     let among_m = |placement: &Placement, own_reach_m: f64| {

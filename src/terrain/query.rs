@@ -54,8 +54,8 @@ pub struct Sample {
     pub water_level_m: Option<f64>,
     /// The nearest river, if one is near.
     pub river: Option<River>,
-    /// Distance from the nearest water, 0 in it: from the bank of a river as far as rivers are known, and from a lake or
-    /// the sea as ten times the height over its level, as if all shores rose one in ten. None if no water is known.
+    /// Distance from the nearest water, 0 in it: from the bank of a river as far as rivers are known, and from a lake
+    /// or the sea as ten times the height over its level, as if all shores rose one in ten. None if no water is known.
     pub bank_m: Option<f64>,
     /// Whether that follows from a height.
     pub(crate) bank_by_height: bool,
@@ -134,8 +134,8 @@ impl Wanted {
         Self { curvature: true, ..self }
     }
 
-    /// And what the populations of a planet ask of a place besides its biome: water, and the rest only if one that is on
-    /// asks for it.
+    /// And what the populations of a planet ask of a place besides its biome: water, and the rest only if one that is
+    /// on asks for it.
     #[must_use]
     pub(crate) fn and_for_life(self, planet: &Planet) -> Self {
         let asks = |what: fn(&Population) -> bool| planet.life.iter().any(|one| one.enabled && what(one));

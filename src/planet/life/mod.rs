@@ -64,16 +64,16 @@ params! {
         /// Least distance from water: from the bank of a river, or ten times the height over a lake or the sea.
         #[serde(skip_serializing_if = "lie::is::<0>")]
         bank_from_m: f64 = 0.0, "From water", Unit::Metres, log(0.0, 10_000.0), Stage::Life;
-        /// Greatest distance from water: from the bank of a river, or ten times the height over a lake or the sea; 10000
-        /// is any. It is exact beside a river, and follows a straightened course beyond some hundred metres.
+        /// Greatest distance from water: from the bank of a river, or ten times the height over a lake or the sea;
+        /// 10000 is any. It is exact beside a river, and follows a straightened course beyond some hundred metres.
         #[serde(skip_serializing_if = "lie::is::<10_000>")]
         bank_to_m: f64 = lie::ANY_BANK_M, "Near water", Unit::Metres, log(0.0, lie::ANY_BANK_M), Stage::Life;
-        /// Least curvature of the ground: its height over the mean 50 m around, as a share of these 50 m. From 0 on are
-        /// ridges, from 0.05 on sharp ones; -1 is any.
+        /// Least curvature of the ground: its height over the mean 50 m around, as a share of these 50 m. From
+        /// 0.05 on are ridges among hills, from 0.2 on crests of mountains; -1 is any.
         #[serde(skip_serializing_if = "lie::is::<-1>")]
         curvature_from: f64 = -1.0, "Curvature from", Unit::None, linear(-1.0, 1.0), Stage::Life;
-        /// Greatest curvature of the ground: its height over the mean 50 m around, as a share of these 50 m. Up to 0 are
-        /// hollows, up to -0.05 gullies; 1 is any.
+        /// Greatest curvature of the ground: its height over the mean 50 m around, as a share of these 50 m. Up to
+        /// -0.05 are hollows among hills, up to -0.2 gullies of mountains; 1 is any.
         #[serde(skip_serializing_if = "lie::is::<1>")]
         curvature_to: f64 = 1.0, "Curvature to", Unit::None, linear(-1.0, 1.0), Stage::Life;
         /// Least height of the ground above the sea; the beach below stays bare.

@@ -19,8 +19,8 @@ impl Planet {
             let other = self.life[..index].iter().find(is_same).filter(|_| population.enabled)?;
             let (seed, free) = (population.seed, free_seed(&self.life, population.seed));
             let message = format!(
-                "{seed} is the seed of {:?}, too: their objects share ids and may stand at the same places; use another, \
-                such as {free}",
+                "{seed} is the seed of {:?}, too: their objects share ids and may stand at the same places; use \
+                another, such as {free}",
                 other.name
             );
             Some((population_path(index).join("seed"), message))

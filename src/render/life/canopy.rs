@@ -15,7 +15,7 @@ pub(crate) const LAYER_ROWS: usize = 9;
 /// Rows of a biome.
 pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
 /// Share of its area that counts in the choice of populations of a biome for one that stands in few of its places.
-const RARELY: f64 = 0.2;
+const RARELY: f64 = 0.05;
 /// Row of a population that begins with its slopes, and a slope that no ground has.
 const SLOPES: usize = 2;
 const NO_SLOPE_DEG: f32 = 1000.0;
