@@ -51,9 +51,9 @@ pub(super) struct Args {
     /// Print a JSON object: height_m, slope_deg, curvature (-1 to 1, below 0 in hollows), normal, temperature_c,
     /// precipitation_mm (a year), temperature and moisture (0 to 1, the axes of the biome table), biome, canopy_cover
     /// (0 to 1), canopy_height_m, populations (objects per_hectare), layers, water_level_m, water_surface_m (of the
-    /// sea, with its waves), wave_height_m (significant), river, lake, bank_m (distance from water), basin, wind_m_s (to
-    /// the east and to the north), rain_mm (a year), plate, cloud_cover, middle_cover, veil_cover and fog_cover (0 to
-    /// 1)
+    /// sea, with its waves), wave_height_m (significant), river, lake, bank_m (distance from water), basin, wind_m_s
+    /// (to the east and to the north), rain_mm (a year), plate, cloud_cover, middle_cover, veil_cover and fog_cover (0
+    /// to 1)
     #[arg(long)]
     json: bool,
     #[command(flatten)]

@@ -64,7 +64,7 @@ impl Soil {
     /// Distances from water are shorter than the points are apart: they are left to the places of single objects, where
     /// they may suit at all.
     pub(super) fn offered(&self, suitability: &Suitability) -> Option<Offer> {
-        let shares: Vec<f64> = self.samples.iter().map(|sample| suitability.apart_from_bank(sample)).collect();
+        let shares: Vec<f64> = self.samples.iter().map(|sample| suitability.in_soil(sample)).collect();
         let farthest_m = suitability.population.farthest_bank_m();
         let least_banks_m = least_banks_m(&self.samples, farthest_m);
         let is_near = least_banks_m.as_ref().is_none_or(|least_m| least_m.iter().any(|least_m| *least_m < farthest_m));

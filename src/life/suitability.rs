@@ -31,7 +31,7 @@ impl Suitability {
 
     /// Share of the density of the population that the ground at a sample bears, 0 to 1.
     pub(super) fn at(&self, sample: &Sample) -> f64 {
-        self.apart_from_bank(sample) * self.by_bank(sample)
+        if self.is_dry(sample) { self.on_ground(sample) * self.by_bank(sample) } else { 0.0 }
     }
 
     /// The part of it that the distance from water leaves.
@@ -39,10 +39,16 @@ impl Suitability {
         self.population.by_bank(sample.bank_m.unwrap_or(f64::INFINITY))
     }
 
-    /// The share where the distance from water would suit.
-    pub(super) fn apart_from_bank(&self, sample: &Sample) -> f64 {
+    /// The share as far as it is found between places whose samples are known. A population that asks for banks looks
+    /// for water at each of its own places: a sample that lies in the river must not thin it out.
+    pub(super) fn in_soil(&self, sample: &Sample) -> f64 {
+        if self.population.asks_bank() || self.is_dry(sample) { self.on_ground(sample) } else { 0.0 }
+    }
+
+    /// The share where water would suit.
+    fn on_ground(&self, sample: &Sample) -> f64 {
         let population = &self.population;
-        if !self.biomes.get(sample.biome).is_some_and(|stands| *stands) || !self.is_dry(sample) {
+        if !self.biomes.get(sample.biome).is_some_and(|stands| *stands) {
             return 0.0;
         }
         let slope_deg = sample.slope_rad.to_degrees();

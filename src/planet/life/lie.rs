@@ -30,6 +30,21 @@ impl Population {
         self.asks_bank() || self.asks_curvature()
     }
 
+    /// Takes over from an older population that it asks for no distance from water and no curvature: a bound on one
+    /// that stands anywhere is no small change.
+    pub(crate) fn ask_no_more_than(&mut self, old: &Self) {
+        for (own, old, any) in [
+            (&mut self.bank_from_m, old.bank_from_m, 0.0),
+            (&mut self.bank_to_m, old.bank_to_m, ANY_BANK_M),
+            (&mut self.curvature_from, old.curvature_from, -1.0),
+            (&mut self.curvature_to, old.curvature_to, 1.0),
+        ] {
+            if old == any {
+                *own = any;
+            }
+        }
+    }
+
     /// Share of the density at a distance from water; infinity where none is known.
     pub(crate) fn by_bank(&self, bank_m: f64) -> f64 {
         let within = |beyond_m: f64, end_m: f64| share(beyond_m, SOFT_BANK.0 + SOFT_BANK.1 * end_m);
@@ -60,7 +75,7 @@ fn share(beyond: f64, soft: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::Planet;
+    use crate::planet::{Planet, random};
 
     #[test]
     fn who_asks_for_nothing_stands_anywhere_and_says_nothing() {
@@ -75,6 +90,16 @@ mod tests {
         let saved = text(reeds.clone());
         assert!(saved.contains("bank_to_m") && saved.contains("curvature_from") && !saved.contains("bank_from_m"));
         assert_eq!(Planet::from_text("saved", &saved).unwrap().life, [reeds]);
+    }
+
+    #[test]
+    fn variations_ask_for_nothing_new() {
+        let reeds = Population { bank_to_m: 8.0, ..Population::default() };
+        let planet = Planet { life: vec![Population::default(), reeds], ..Planet::default() };
+        for seed in 0..20 {
+            let varied = random::vary(&planet, seed, 0.8).life;
+            assert!(!varied[0].asks_lie() && !varied[1].asks_curvature() && varied[1].bank_to_m < 100.0, "{seed}");
+        }
     }
 
     #[test]
