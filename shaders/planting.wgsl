@@ -1,5 +1,6 @@
-// Planting: what strokes of life, roads and walls make of the share of its greatest density that a population has, from
-// the planting map of the view (src/life/planting_map.rs).
+// Planting: what strokes of life, roads and walls, and the distance from water and the curvature of the ground, make of
+// the share of its greatest density that a population has, from the planting map of the view
+// (src/life/planting_map.rs).
 
 // What is kept of a share and what is added to it, 16 bits each: channel by channel, square by square, row by row.
 @group(0) @binding(6) var<storage, read> planting: array<u32>;

@@ -284,8 +284,13 @@ impl<'a> Evaluator<'a> {
             climate: a.climate || b.climate,
             biome: a.biome || b.biome,
             water: a.water || b.water,
+            bank: a.bank || b.bank,
+            curvature: a.curvature || b.curvature,
         };
-        if let Some(wanted) = maps.iter().filter_map(|map| map.wanted()).reduce(both) {
+        let planet = self.terrain.planet();
+        let of_map =
+            |map: &Map| map.wanted().map(|wanted| if map.shows_life() { wanted.and_for_life(planet) } else { wanted });
+        if let Some(wanted) = maps.iter().filter_map(of_map).reduce(both) {
             self.terrain.samples_spaced_into(dirs, spacing_rad, wanted, samples, scratch);
         }
         let mut extras = Extras::default();

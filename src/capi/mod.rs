@@ -302,7 +302,9 @@ pub unsafe extern "C" fn tellus_samples_spaced(
             const BATCH: usize = 256;
             let mut found = [crate::terrain::Sample::default(); BATCH];
             for (dirs, samples) in dirs.chunks(BATCH).zip(samples.chunks_mut(BATCH)) {
-                terrain.samples_spaced_into(dirs, spacing_rad, Wanted::ALL, &mut found, scratch);
+                // A `TellusSample` has neither a bank nor a curvature.
+                let wanted = Wanted::HEIGHT.and_normal().and_biome().and_water();
+                terrain.samples_spaced_into(dirs, spacing_rad, wanted, &mut found, scratch);
                 for (sample, found) in samples.iter_mut().zip(&found) {
                     *sample = TellusSample::of(found);
                 }

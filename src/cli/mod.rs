@@ -210,11 +210,14 @@ fn load(path: &Path) -> Result<Planet, Failure> {
     load_noted(path).map_err(|error| Failure::Message(error.to_string()))
 }
 
-/// Loads a preset. A note says so if its ground is other here than where it was saved.
+/// Loads a preset. Notes say so if its ground is other here than where it was saved, and what is doubtful in it.
 fn load_noted(path: &Path) -> Result<Planet, LoadError> {
     let (planet, text) = Planet::load_with_text(path)?;
     if let Some(note) = ground_note(&text) {
         tell(&format!("note: {}: {note}", path.display()));
+    }
+    for (at, doubt) in planet.life_doubts() {
+        tell(&format!("note: {}: {at}: {doubt}", path.display()));
     }
     Ok(planet)
 }

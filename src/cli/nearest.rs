@@ -206,6 +206,7 @@ fn of_object(planet: &Planet, object: &Instance) -> Value {
         "height_m": object.base_m,
         "size_m": object.size_m,
         "turn_deg": object.turn_rad.to_degrees(),
+        "quaternion": object.local_from_form().to_array(),
         "scale": scale,
     })
 }

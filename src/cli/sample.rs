@@ -48,11 +48,12 @@ pub(super) struct Args {
     /// Time in seconds, for clouds and waves
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::seconds)]
     time: f64,
-    /// Print a JSON object: height_m, slope_deg, normal, temperature_c, precipitation_mm (a year), temperature and
-    /// moisture (0 to 1, the axes of the biome table), biome, canopy_cover (0 to 1), canopy_height_m, populations
-    /// (objects per_hectare), layers, water_level_m, water_surface_m (of the sea, with its waves), wave_height_m
-    /// (significant), river, lake, basin, wind_m_s (to the east and to the north), rain_mm (a year), plate,
-    /// cloud_cover, middle_cover, veil_cover and fog_cover (0 to 1)
+    /// Print a JSON object: height_m, slope_deg, curvature (-1 to 1, below 0 in hollows), normal, temperature_c,
+    /// precipitation_mm (a year), temperature and moisture (0 to 1, the axes of the biome table), biome, canopy_cover
+    /// (0 to 1), canopy_height_m, populations (objects per_hectare), layers, water_level_m, water_surface_m (of the
+    /// sea, with its waves), wave_height_m (significant), river, lake, bank_m (distance from water), basin, wind_m_s
+    /// (to the east and to the north), rain_mm (a year), plate, cloud_cover, middle_cover, veil_cover and fog_cover (0
+    /// to 1)
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -151,6 +152,7 @@ pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: 
         "has_ground": terrain.planet().giant.is_none(),
         "height_m": sample.height_m,
         "slope_deg": sample.slope_rad.to_degrees(),
+        "curvature": sample.curvature,
         "normal": sample.normal_planet.to_array(),
         "temperature_c": sample.temperature_c,
         "temperature": sample.temperature,
@@ -166,6 +168,7 @@ pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: 
         "wave_height_m": sea.map(|(_, height_m)| height_m),
         "river": river,
         "lake": sample.lake,
+        "bank_m": sample.bank_m,
         "basin": sample.basin,
         "wind_m_s": to_east_and_north(dir, sample.wind_planet_m_s),
         "rain_mm": sample.rain_mm,

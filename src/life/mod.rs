@@ -5,7 +5,8 @@
 //! - `soil`: what the ground of a node offers
 //! - `suitability`: how well a place suits a population
 //! - `placement`: the objects of a cell
-//! - `planting_map`: what edits make of populations, for what is seen from afar
+//! - `planting_map`: what edits make of populations, for what is seen from afar; `lie_shares`: what water, ridges and
+//!   hollows make of them
 //! - `canopy`: what populations cover of the ground
 //! - [`query`]: objects of a terrain, for games and exports; `nearest`: the nearest one
 //! - `solid`: what bodies hit of objects, and what moves among them
@@ -20,6 +21,8 @@ pub(crate) mod canopy;
 pub mod form;
 mod grid;
 mod hash;
+#[cfg(feature = "render")]
+mod lie_shares;
 mod model;
 mod nearest;
 mod placement;

@@ -27,10 +27,20 @@ pub(super) struct Placement {
     soil_level: u8,
 }
 
+/// A candidate that may stand, as far as the soil tells.
+struct Likely {
+    candidate: Candidate,
+    /// Share that the soil offers, the distance from water apart; 1 without soil.
+    offered: f64,
+    /// Share that groups leave.
+    clumping: f64,
+    planting: Planting,
+}
+
 /// Memory for placing on one thread.
 #[derive(Default)]
 pub(super) struct PlacementScratch {
-    candidates: Vec<(Candidate, f64, Planting)>,
+    candidates: Vec<Likely>,
     planted: Vec<Planting>,
     dirs: Vec<DVec3>,
     samples: Vec<Sample>,
@@ -102,27 +112,36 @@ impl Placement {
         candidates.extend(self.grid.candidates(cell).enumerate().filter_map(|(number, candidate)| {
             let planting = planted.get(number).copied().unwrap_or(Planting::NONE);
             let offered = offer.as_ref().map_or(0.0, |offer| offer.at(cell, candidate.place));
-            let offered = if soil.is_some() { planting.of(offered) } else { 1.0 };
-            if candidate.rank >= offered {
+            let offered = if soil.is_some() { offered } else { 1.0 };
+            // Water suits at most wholly.
+            let most = if soil.is_some() { planting.of(offered) } else { 1.0 };
+            if candidate.rank >= most {
                 return None;
             }
-            let share = offered * self.suitability.clumping(candidate.dir, self.radius_m, self.seed);
-            (candidate.rank < share).then_some((candidate, share, planting))
+            let clumping = self.suitability.clumping(candidate.dir, self.radius_m, self.seed);
+            (candidate.rank < most * clumping).then_some(Likely { candidate, offered, clumping, planting })
         }));
         dirs.clear();
-        dirs.extend(candidates.iter().map(|(candidate, ..)| candidate.dir));
+        dirs.extend(candidates.iter().map(|likely| likely.candidate.dir));
         samples.clear();
         samples.resize(dirs.len(), Sample::default());
+        let (population, asks_bank) = (self.population(), self.population().asks_bank());
         let wanted = match soil {
-            Some(soil) => Wanted { normal: self.population().upright < 1.0, water: !soil.is_dry, ..Wanted::HEIGHT },
-            None => Wanted::ALL,
+            Some(soil) => {
+                let water = !soil.is_dry || asks_bank;
+                Wanted { normal: population.upright < 1.0, water, bank: asks_bank, ..Wanted::HEIGHT }
+            }
+            None => Wanted { bank: asks_bank, curvature: population.asks_curvature(), ..Wanted::ALL },
         };
         terrain.samples_spaced_into(dirs, 0.0, wanted, samples, scratch);
-        let placed = candidates.iter().zip(&*samples).filter_map(|((candidate, share, planting), sample)| {
+        let placed = candidates.iter().zip(&*samples).filter_map(|(likely, sample)| {
+            let Likely { candidate, offered, clumping, planting } = likely;
             let density = match soil {
-                Some(_) if self.suitability.is_dry(sample) => *share,
+                Some(_) if self.suitability.is_dry(sample) => {
+                    planting.of(offered * self.suitability.by_bank(sample)) * clumping
+                }
                 Some(_) => 0.0,
-                None => share * self.suitability.planted(sample, *planting),
+                None => offered * clumping * self.suitability.planted(sample, *planting),
             };
             (candidate.rank < density).then(|| self.instance(candidate, density, sample))
         });

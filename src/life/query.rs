@@ -6,7 +6,7 @@ use super::soil::Soils;
 use super::solid::ObjectId;
 use crate::sphere::{NodeId, geo};
 use crate::terrain::Terrain;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use rayon::prelude::*;
 
 /// Cells that are placed at a time: it bounds the memory of their soil.
@@ -65,6 +65,16 @@ impl Instance {
         let y = axis.cross(x);
         let (sin, cos) = libm::sincos(self.turn_rad);
         DMat3::from_cols(x * cos + y * sin, y * cos - x * sin, axis)
+    }
+
+    /// Turns the form (x, y and z up) into the directions east, north and up at its place: the lean and the turn
+    /// together, as engines take them. A unit quaternion with `w` at least 0.
+    pub fn local_from_form(&self) -> DQuat {
+        let up = self.dir_planet;
+        let (east, north) = geo::east_north(up);
+        let local_from_planet = DMat3::from_cols(east, north, up).transpose();
+        let turn = DQuat::from_mat3(&(local_from_planet * self.planet_from_form())).normalize();
+        if turn.w < 0.0 { -turn } else { turn }
     }
 }
 

@@ -83,7 +83,7 @@ pub struct Scenery {
     pub reach_m: Vec<f64>,
     /// For each population of the planet, the cover of its form; None for those that are off.
     pub(crate) covers: Vec<Option<Cover>>,
-    /// What edits make of the populations; None where no edit changes what stands on the ground.
+    /// What edits, water, ridges and hollows make of the populations; None where they change nothing, or not yet.
     #[cfg(feature = "render")]
     pub(crate) planting: Option<Arc<PlantingMap>>,
 }
@@ -119,7 +119,8 @@ fn reaches_m(placements: &[Placement], quality: Quality) -> Vec<f64> {
     let hides = |own: &Population, other: &Population| {
         let meets =
             own.biomes.is_empty() || other.biomes.is_empty() || own.biomes.chars().any(|key| other.stands_in(key));
-        meets && area(other) > area(own) && other.height_m > 0.5 * own.height_m
+        // One that asks for banks or ridges is not everywhere.
+        meets && !other.asks_lie() && area(other) > area(own) && other.height_m > 0.5 * own.height_m
     };
     let own_m: Vec<f64> = placements.iter().map(|placement| own_reach_m(placement, quality)).collect();
     let among_m = |placement: &Placement, own_reach_m: f64| {
@@ -203,7 +204,8 @@ impl SceneryCache {
         scenery.cells = cells.filter(|cell| !cell.objects.is_empty()).cloned().collect();
         #[cfg(feature = "render")]
         {
-            scenery.planting = self.planting.around(terrain, view.camera.position_planet_m);
+            let (planting, is_whole_map) = self.planting.around(terrain, view.camera.position_planet_m, keep_going);
+            (scenery.planting, is_whole) = (planting, is_whole && is_whole_map);
         }
         self.trim(&scenery);
         (scenery, is_whole)

@@ -48,7 +48,8 @@ impl Soil {
         let share = |number: usize| number as f64 / (SIDE - 1) as f64;
         let dirs: Vec<_> = (0..SIDE * SIDE).map(|i| id.direction(share(i % SIDE), share(i / SIDE))).collect();
         let mut samples = vec![Sample::default(); dirs.len()];
-        terrain.samples_spaced_into(&dirs, 0.0, Wanted::ALL, &mut samples, scratch);
+        let wanted = Wanted::HEIGHT.and_normal().and_biome().and_for_life(terrain.planet());
+        terrain.samples_spaced_into(&dirs, 0.0, wanted, &mut samples, scratch);
         let sea_m = terrain.planet().sea_level_m();
         let is_dry = samples.iter().all(|sample| {
             let by_river = sample.river.is_some_and(|river| river.distance_m < 0.5 * river.width_m + NEAR_RIVER_M);
@@ -59,27 +60,59 @@ impl Soil {
     }
 
     /// What a population finds in the node; None if it stands nowhere there.
+    ///
+    /// Distances from water are shorter than the points are apart: they are left to the places of single objects, where
+    /// they may suit at all.
     pub(super) fn offered(&self, suitability: &Suitability) -> Option<Offer> {
-        let shares: Vec<f64> = self.samples.iter().map(|sample| suitability.at(sample)).collect();
-        shares.iter().any(|share| *share > 0.0).then_some(Offer { id: self.id, shares })
+        let shares: Vec<f64> = self.samples.iter().map(|sample| suitability.in_soil(sample)).collect();
+        let farthest_m = suitability.population.farthest_bank_m();
+        let least_banks_m = least_banks_m(&self.samples, farthest_m);
+        let is_near = least_banks_m.as_ref().is_none_or(|least_m| least_m.iter().any(|least_m| *least_m < farthest_m));
+        let is_any = is_near && shares.iter().any(|share| *share > 0.0);
+        is_any.then_some(Offer { id: self.id, shares, least_banks_m, farthest_m })
     }
+}
+
+/// Metres by which the distance from a bank may differ at a place from that at the nearest point: points are at most
+/// 23 m apart.
+const BETWEEN_M: f64 = 25.0;
+/// The same where it is ten times a height: for each unit of slope, and in any case.
+const BETWEEN_SHORE_M: [f64; 2] = [320.0, 20.0];
+
+/// Distances from water that places near the points of a node have at least; None if the population asks for no
+/// greatest distance.
+fn least_banks_m(samples: &[Sample], farthest_m: f64) -> Option<Vec<f64>> {
+    let least_m = |sample: &Sample| {
+        let by_height_m = BETWEEN_SHORE_M[0] * libm::tan(sample.slope_rad) + BETWEEN_SHORE_M[1];
+        let between_m = if sample.bank_by_height { by_height_m } else { BETWEEN_M };
+        sample.bank_m.map_or(f64::INFINITY, |bank_m| bank_m - between_m)
+    };
+    (farthest_m < f64::INFINITY).then(|| samples.iter().map(least_m).collect())
 }
 
 /// The share of its density that a population has at the points of a node.
 pub(super) struct Offer {
     id: NodeId,
     shares: Vec<f64>,
+    least_banks_m: Option<Vec<f64>>,
+    farthest_m: f64,
 }
 
 impl Offer {
-    /// The share at a place of a cell in the node, between the points.
+    /// The share at a place of a cell in the node, between the points; 0 where water is certainly too far.
     pub(super) fn at(&self, cell: NodeId, place: [f64; 2]) -> f64 {
         let [width, x, y] = cell.within(self.id);
         let last = (SIDE - 1) as f64;
         let at = [x + place[0] * width, y + place[1] * width].map(|share| (share * last).clamp(0.0, last));
         let corner = at.map(|at| (at as usize).min(SIDE - 2));
         let part = [at[0] - corner[0] as f64, at[1] - corner[1] as f64];
-        let share = |across: usize, up: usize| self.shares[(corner[1] + up) * SIDE + corner[0] + across];
+        let number = |across: usize, up: usize| (corner[1] + up) * SIDE + corner[0] + across;
+        let corners = [number(0, 0), number(1, 0), number(0, 1), number(1, 1)];
+        let is_far = |least_m: &Vec<f64>| corners.iter().all(|number| least_m[*number] >= self.farthest_m);
+        if self.least_banks_m.as_ref().is_some_and(is_far) {
+            return 0.0;
+        }
+        let share = |across: usize, up: usize| self.shares[number(across, up)];
         let row = |up: usize| share(0, up) + (share(1, up) - share(0, up)) * part[0];
         row(0) + (row(1) - row(0)) * part[1]
     }

@@ -31,8 +31,24 @@ impl Suitability {
 
     /// Share of the density of the population that the ground at a sample bears, 0 to 1.
     pub(super) fn at(&self, sample: &Sample) -> f64 {
+        if self.is_dry(sample) { self.on_ground(sample) * self.by_bank(sample) } else { 0.0 }
+    }
+
+    /// The part of it that the distance from water leaves.
+    pub(super) fn by_bank(&self, sample: &Sample) -> f64 {
+        self.population.by_bank(sample.bank_m.unwrap_or(f64::INFINITY))
+    }
+
+    /// The share as far as it is found between places whose samples are known. A population that asks for banks looks
+    /// for water at each of its own places: a sample that lies in the river must not thin it out.
+    pub(super) fn in_soil(&self, sample: &Sample) -> f64 {
+        if self.population.asks_bank() || self.is_dry(sample) { self.on_ground(sample) } else { 0.0 }
+    }
+
+    /// The share where water would suit.
+    fn on_ground(&self, sample: &Sample) -> f64 {
         let population = &self.population;
-        if !self.biomes.get(sample.biome).is_some_and(|stands| *stands) || !self.is_dry(sample) {
+        if !self.biomes.get(sample.biome).is_some_and(|stands| *stands) {
             return 0.0;
         }
         let slope_deg = sample.slope_rad.to_degrees();
@@ -41,6 +57,7 @@ impl Suitability {
             * between(above_m, population.height_from_m, population.height_to_m, SOFT_M)
             * between(sample.temperature_c, population.temperature_from_c, population.temperature_to_c, SOFT_C)
             * between(sample.moisture, population.moisture_from, population.moisture_to, SOFT_MOISTURE)
+            * population.by_curvature(sample.curvature)
     }
 
     /// The same after edits: where it is dry enough, strokes plant also what no rule puts there.

@@ -17,9 +17,7 @@ mod structure;
 
 use super::locks::Locks;
 use super::param::{ParamPath, Stage};
-use super::{
-    Atmosphere, Biomes, Climate, Clouds, GroundEdits, Layer, Mask, Planet, Population, Precision, Star, Water, validate,
-};
+use super::{Atmosphere, Biomes, Climate, Clouds, GroundEdits, Layer, Mask, Planet, Precision, Star, Water, validate};
 use dice::{Dice, three_digits};
 
 /// Mixed into the seed of a planet for what stands on it.
@@ -117,7 +115,10 @@ pub fn vary_some(planet: &Planet, seed: u64, strength: f64, moves: &dyn Fn(&Para
     });
     mend_biomes(&mut varied.biomes, &planet.biomes);
     mend_masks(&mut varied.layers, &planet.layers);
-    varied.life.iter_mut().for_each(Population::mend_ranges);
+    for (population, old) in varied.life.iter_mut().zip(&planet.life) {
+        population.ask_no_more_than(old);
+        population.mend_ranges();
+    }
     varied
 }
 

@@ -13,7 +13,7 @@
 //! - `biome`, `border`: the biome of a point; border jitter
 //! - `builder`: terrains that take over what another one has
 //! - `query`, `checked`, `raycast`, `contact`, `nearest`: the queries of [`Terrain`]; `sunlight`: the shadow of the
-//!   ground at points; `water`: water, wind and rain there
+//!   ground at points; `water`: water, wind and rain there; `curvature`: ridges and hollows
 //! - `contours`: coasts and other lines of equal height; `chunk`: ground for physics engines; `ground`: ground that is
 //!   kept near those who move on it, and a walker
 //! - `network`: rivers from source to mouth, lakes, basins; `by_hand`: plates that are changed by hand
@@ -38,6 +38,7 @@ pub(crate) mod climate;
 pub(crate) mod coarse;
 mod contact;
 mod contours;
+mod curvature;
 mod curve_inputs;
 pub(crate) mod edits;
 mod effects;
@@ -84,6 +85,7 @@ use crate::simd::Simd;
 use biome::CompiledBiomes;
 use climate::{CompiledClimate, Rules};
 use coarse::{CellFields, LayerGround};
+pub use curvature::CURVATURE_M;
 use edits::{Edits, Memory, Near, Painted};
 use glam::DVec3;
 use height::LayerStack;

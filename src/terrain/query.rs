@@ -7,12 +7,15 @@
 use super::Terrain;
 use super::biome::Site;
 use super::climate::PointClimate;
+#[cfg(doc)]
+use super::curvature::CURVATURE_M;
 use super::evaluate::BatchScratch;
 use super::field::{ALL_OCTAVES, Components};
 use super::lane::CHUNK;
 use super::points::unit;
 use super::water::River;
 use super::wet::Water;
+use crate::planet::{Planet, Population};
 use crate::world::rivers::keep_bytes;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -32,6 +35,9 @@ pub struct Sample {
     pub normal_planet: DVec3,
     /// Angle between the ground and the horizontal.
     pub slope_rad: f64,
+    /// Height over the mean of four points [`CURVATURE_M`] around, as a share of that distance: about -1 to 1, below 0
+    /// in hollows and above 0 on ridges.
+    pub curvature: f64,
     /// Temperature at the surface (of the sea, where there is sea).
     pub temperature_c: f64,
     /// The same between the coldest (0) and the hottest (1) temperature of the biome table.
@@ -48,6 +54,11 @@ pub struct Sample {
     pub water_level_m: Option<f64>,
     /// The nearest river, if one is near.
     pub river: Option<River>,
+    /// Distance from the nearest water, 0 in it: from the bank of a river as far as rivers are known, and from a lake
+    /// or the sea as ten times the height over its level, as if all shores rose one in ten. None if no water is known.
+    pub bank_m: Option<f64>,
+    /// Whether that follows from a height.
+    pub(crate) bank_by_height: bool,
     /// The lake whose water it is.
     pub lake: Option<u32>,
     /// The basin that the cell of the point drains to, on the finest grid of rivers; none in the sea.
@@ -74,13 +85,18 @@ pub struct Wanted {
     /// Water level, river, lake, basin, wind, rain and plate. Without a structure rain takes the climate, which is
     /// then filled in too.
     pub water: bool,
+    /// Distance from the nearest water. It takes the water, which is then filled in too.
+    pub bank: bool,
+    /// Curvature. It takes four heights more.
+    pub curvature: bool,
 }
 
 impl Wanted {
     /// The height alone.
-    pub const HEIGHT: Self = Self { normal: false, climate: false, biome: false, water: false };
+    pub const HEIGHT: Self =
+        Self { normal: false, climate: false, biome: false, water: false, bank: false, curvature: false };
     /// Everything.
-    pub const ALL: Self = Self { normal: true, climate: true, biome: true, water: true };
+    pub const ALL: Self = Self { normal: true, climate: true, biome: true, water: true, bank: true, curvature: true };
 
     /// And the normal.
     #[must_use]
@@ -104,6 +120,31 @@ impl Wanted {
     #[must_use]
     pub fn and_water(self) -> Self {
         Self { water: true, ..self }
+    }
+
+    /// And the distance from the nearest water.
+    #[must_use]
+    pub fn and_bank(self) -> Self {
+        Self { bank: true, ..self }
+    }
+
+    /// And the curvature.
+    #[must_use]
+    pub fn and_curvature(self) -> Self {
+        Self { curvature: true, ..self }
+    }
+
+    /// And what the populations of a planet ask of a place besides its biome: water, and the rest only if one that is
+    /// on asks for it.
+    #[must_use]
+    pub(crate) fn and_for_life(self, planet: &Planet) -> Self {
+        let asks = |what: fn(&Population) -> bool| planet.life.iter().any(|one| one.enabled && what(one));
+        Self {
+            water: true,
+            bank: self.bank || asks(Population::asks_bank),
+            curvature: self.curvature || asks(Population::asks_curvature),
+            ..self
+        }
     }
 
     fn slope(self) -> bool {
@@ -264,12 +305,19 @@ impl Terrain {
                     sample.slope_rad = libm::atan(slope.length());
                 }
             }
-            let rain = wanted.water && self.world().weather.map().is_none();
+            let is_wet = wanted.water || wanted.bank;
+            let rain = is_wet && self.world().weather.map().is_none();
             if wanted.climate || wanted.biome || rain {
                 self.find_climate(wanted, samples, scratch);
             }
-            if wanted.water {
+            if is_wet {
                 self.find_water(&scratch.0.points.dirs, spacing_rad, samples);
+            }
+            if wanted.bank {
+                self.find_banks(&scratch.0.points.dirs, spacing_rad, samples);
+            }
+            if wanted.curvature {
+                self.find_curvature(spacing_rad, samples, scratch);
             }
         }
     }
@@ -332,7 +380,7 @@ impl Terrain {
     }
 
     /// Evaluates at most one chunk of directions, `spacing_rad` apart (0: all detail).
-    fn evaluate_at(
+    pub(super) fn evaluate_at(
         &self,
         dirs_planet: &[DVec3],
         spacing_rad: f64,

@@ -5,12 +5,15 @@
 
 use super::Terrain;
 use super::landform::coarsest_spacing_rad;
-use super::landform::river_points;
+use super::landform::{river_banks, river_points};
 use super::query::Sample;
 use crate::world::carved::Carved;
 use crate::world::grid::cell_at;
 use crate::world::rivers::RiverPoint;
 use glam::DVec3;
+
+/// Metres from the water for each metre that a shore of a lake or the sea rises.
+const SHORE_RUN: f64 = 10.0;
 
 /// A river near a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,6 +61,35 @@ impl Terrain {
                 }
             });
         }
+    }
+
+    /// Fills in the distance from the nearest water. Water is there already.
+    pub(super) fn find_banks(&self, dirs: &[DVec3], spacing_rad: f64, samples: &mut [Sample]) {
+        let sea_m = self.planet().sea_level_m();
+        let over_m = |sample: &Sample, level_m: f64| (SHORE_RUN * (sample.height_m - level_m)).max(0.0);
+        let nearer = |sample: &mut Sample, from_m: f64, by_height: bool| {
+            if from_m < sample.bank_m.unwrap_or(f64::INFINITY) {
+                (sample.bank_m, sample.bank_by_height) = (Some(from_m), by_height);
+            }
+        };
+        for sample in &mut *samples {
+            let from_m = sea_m.map_or(f64::INFINITY, |sea_m| over_m(sample, sea_m));
+            nearer(sample, if sample.water_level_m.is_some() { 0.0 } else { from_m }, true);
+        }
+        let Some(carved) = self.world().carved.map() else { return };
+        river_points(&carved.rivers, dirs, spacing_rad, |points| {
+            for (sample, point) in samples.iter_mut().zip(points) {
+                if let Some(level_m) = point.lake_level_m.map(|level_m| self.stack.bent_m(level_m)) {
+                    nearer(sample, over_m(sample, level_m), true);
+                }
+            }
+        });
+        let radius_m = self.planet().radius_m();
+        river_banks(&carved.rivers, dirs, spacing_rad, |banks_rad| {
+            for (sample, bank_rad) in samples.iter_mut().zip(banks_rad) {
+                nearer(sample, bank_rad * radius_m, false);
+            }
+        });
     }
 
     /// Fills in what rivers and lakes say. The level of the sea is there already.

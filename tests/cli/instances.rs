@@ -56,7 +56,7 @@ fn a_table_and_points_hold_the_objects_of_the_library() {
     let within = terrain.instances(middle.direction(), 200.0).unwrap();
     let text = std::fs::read_to_string(table).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(lines[0], "id,kind,latitude_deg,longitude_deg,height_m,turn_deg,scale");
+    assert_eq!(lines[0], "id,kind,latitude_deg,longitude_deg,height_m,turn_deg,scale,qx,qy,qz,qw");
     let ids: Vec<u64> = lines[1..].iter().map(|line| line.split(',').next().unwrap().parse().unwrap()).collect();
     assert!(ids.is_sorted() && ids.len() > 500, "{}", ids.len());
     // The square holds the circle within it, and little more than 4 / pi of it.
@@ -67,6 +67,22 @@ fn a_table_and_points_hold_the_objects_of_the_library() {
     let found: Value = serde_json::from_slice(&std::fs::read(points).unwrap()).unwrap();
     let features = found["features"].as_array().unwrap();
     assert_eq!(features.len(), ids.len());
+    // The quaternion is the pose: its axis is that of the object, however it leans.
+    let mut leaning = 0;
+    for instance in within.iter().step_by(7) {
+        let line = lines[1 + ids.binary_search(&instance.id).unwrap()];
+        let parts: Vec<f64> = line.rsplitn(5, ',').take(4).map(|part| part.parse().unwrap()).collect();
+        let turn = tellus::glam::DQuat::from_xyzw(parts[3], parts[2], parts[1], parts[0]);
+        let (east, north) = tellus::sphere::geo::east_north(instance.dir_planet);
+        let to_planet = |local: tellus::glam::DVec3| east * local.x + north * local.y + instance.dir_planet * local.z;
+        let form = instance.planet_from_form();
+        for (axis, wanted) in tellus::glam::DMat3::IDENTITY.to_cols_array_2d().into_iter().zip(form.to_cols_array_2d())
+        {
+            assert!(to_planet(turn * tellus::glam::DVec3::from_array(axis)).distance(wanted.into()) < 1e-5, "{line}");
+        }
+        leaning += usize::from(instance.axis_planet.dot(instance.dir_planet) < 0.998);
+    }
+    assert!(leaning > 5, "{leaning}");
     for (feature, line) in features.iter().zip(&lines[1..]).step_by(40) {
         let properties = &feature["properties"];
         let id: u64 = properties["id"].as_str().unwrap().parse().unwrap();
@@ -124,7 +140,7 @@ fn columns_hold_the_rows_of_the_table() {
             let wanted: f64 = line[column].parse().unwrap();
             assert!((row.get_double(column).unwrap() - wanted).abs() < 1.0 / per_unit, "{line:?}");
         }
-        for (column, per_unit) in [(5, 1e2), (6, 1e4)] {
+        for (column, per_unit) in [(5, 1e2), (6, 1e4), (7, 1e6), (8, 1e6), (9, 1e6), (10, 1e6)] {
             let wanted: f32 = line[column].parse().unwrap();
             assert!((row.get_float(column).unwrap() - wanted).abs() < 1.0 / per_unit, "{line:?}");
         }
@@ -285,4 +301,19 @@ fn the_nearest_object_is_that_of_the_library() {
     }
     let (code, _, err) = nearest(&["--kind", "Trees"]);
     assert!(code == Some(1) && err.contains("no population \"Trees\"; use Boulder"), "{err}");
+}
+
+#[test]
+fn equal_seeds_of_populations_are_noted_with_a_free_one_and_no_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = preset(folder.path());
+    let mut planet = Planet::load(&path).unwrap();
+    planet.life[1].seed = planet.life[0].seed;
+    planet.save(&path).unwrap();
+    let (done, message) = tellus(&["check", path.to_str().unwrap()]);
+    let wanted = format!("note: {}: life[1].seed: 1 is the seed of \"Boulder\", too", path.display());
+    assert!(done && message.starts_with(&wanted) && message.trim_end().ends_with("such as 2"), "{message}");
+    planet.life[0].enabled = false;
+    planet.save(&path).unwrap();
+    assert_eq!(tellus(&["check", path.to_str().unwrap()]), (true, String::new()));
 }

@@ -13,7 +13,8 @@
 //! - `rivers`: water on the whole course of rivers
 //! - `physics`, `ground`, `walker`: contacts, sweeps, and those who walk
 //! - `system`: orbits and resonances; `trial`: what trials of systems find
-//! - `life`: what stands on the ground; `planting`: by hand; `solid`: what of it is hit
+//! - `life`: what stands on the ground; `lie`: by water, ridges and hollows; `planting`: by hand; `solid`: what of it
+//!   is hit
 //! - `water`: rivers, lakes and weather of a structure
 //! - `spread`: points far apart among rivers
 //! - `atmosphere`: the CPU reference of the air
@@ -32,6 +33,7 @@ mod idle;
 mod images;
 mod joining;
 mod landforms;
+mod lie;
 mod life;
 mod lod;
 mod masks;

@@ -119,3 +119,19 @@ fn a_drag_plants_a_population_and_with_shift_clears_it_and_strokes_follow_its_na
     send(&mut harness, Command::Undo);
     assert_eq!(painted(&harness), [of("Oak", 1.0), of("Oak", 0.0)]);
 }
+
+#[test]
+fn equal_seeds_are_told_and_what_is_added_has_a_free_one() {
+    let named = |name: &str| Population { name: name.to_owned(), ..Population::default() };
+    let life = vec![named("Oak"), named("Elm")];
+    let mut harness = app::open_planet([1280.0, 900.0], Planet { life, ..two_biomes() });
+    click(&mut harness, "Life");
+    let is_told = |harness: &Editor| harness.query_by_label_contains("1 is the seed of \"Oak\", too").is_some();
+    assert!(!is_told(&harness), "the first one keeps its seed");
+    click(&mut harness, "Population Elm");
+    assert!(is_told(&harness));
+    click(&mut harness, "Duplicate population");
+    add(&mut harness, "Birch");
+    let seeds: std::collections::HashSet<u32> = planet(&harness).life.iter().map(|one| one.seed).collect();
+    assert_eq!((planet(&harness).life.len(), seeds.len()), (4, 3));
+}

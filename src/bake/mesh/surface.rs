@@ -85,7 +85,7 @@ impl Surface<'_> {
             _ => 0.0,
         };
         let mut samples = vec![Sample::default(); dirs_planet.len()];
-        let wanted = Wanted::HEIGHT.and_biome().and_water();
+        let wanted = Wanted::HEIGHT.and_biome().and_for_life(self.terrain.planet());
         self.terrain.samples_spaced_into(dirs_planet, detail_rad, wanted, &mut samples, scratch);
         // The samples' own normals have all octaves, which points so far apart would show as noise.
         let ground = self.terrain.slopes_at(dirs_planet, &[detail_rad, spacing_rad]);

@@ -24,6 +24,10 @@ const SCHEMA: &str = "message instances {
     required double height_m;
     required float turn_deg;
     required float scale;
+    required float qx;
+    required float qy;
+    required float qz;
+    required float qw;
 }";
 
 /// Rows that are in memory as columns at a time.
@@ -59,6 +63,10 @@ fn write_groups(file: &mut File, planet: &Planet, instances: &[Instance]) -> Res
         add::<DoubleType>(&mut group, &all().map(|one| one.base_m).collect::<Vec<_>>())?;
         add::<FloatType>(&mut group, &all().map(|one| one.turn_rad.to_degrees() as f32).collect::<Vec<_>>())?;
         add::<FloatType>(&mut group, &all().map(|one| kind_and_scale(planet, one).1 as f32).collect::<Vec<_>>())?;
+        let turns: Vec<[f64; 4]> = all().map(|one| one.local_from_form().to_array()).collect();
+        for part in 0..4 {
+            add::<FloatType>(&mut group, &turns.iter().map(|turn| turn[part] as f32).collect::<Vec<_>>())?;
+        }
         group.close()?;
     }
     writer.close()?;

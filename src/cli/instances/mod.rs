@@ -23,7 +23,8 @@ use std::path::{Path, PathBuf};
 #[command(
     after_help = "Objects are those that pictures show and that the library answers. Columns of a .csv or .parquet: id, kind (the \
     population), latitude_deg, longitude_deg, height_m (of the foot), turn_deg (about the object's axis, against the \
-    clock from the east as seen from above), scale (1 is the height of the population). A .glb has a mesh for each \
+    clock from the east as seen from above), scale (1 is the height of the population), qx, qy, qz, qw (the whole turn \
+    with the lean: a quaternion from the form, z up, to east, north and up at the place). A .glb has a mesh for each \
     population and variant with its instances (EXT_mesh_gpu_instancing), in the frame of `tellus mesh` for the same \
     region; its sides are at most 20 km."
 )]

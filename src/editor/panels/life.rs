@@ -7,7 +7,7 @@ use crate::editor::widgets::drag_row::dragged_row;
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::{menu_button, random_seed};
-use crate::planet::life::{READY_POPULATIONS, population_path};
+use crate::planet::life::{READY_POPULATIONS, free_seed, population_path};
 use crate::planet::param::Choice;
 use crate::planet::{Form, MAX_POPULATIONS, Planet, Population};
 use eframe::egui::{self, AtomExt};
@@ -71,7 +71,7 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LifeState, draft: &mut Draft<'_>) {
                         let told =
                             format!("{} on a hectare, {} m high: {form}", ready_one.per_hectare, ready_one.height_m);
                         if ui.button(ready.name).on_hover_text(told).clicked() {
-                            let seed = random_seed() as u32;
+                            let seed = free_seed(&draft.planet.life, random_seed() as u32);
                             let name = unique_name(draft.planet, ready.name);
                             draft.planet.life.push(Population { seed, name, ..ready_one });
                             state.selected = draft.planet.life.len() - 1;
@@ -86,7 +86,8 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LifeState, draft: &mut Draft<'_>) {
             let told = "Duplicate the selected population";
             if icon_button(ui, Icon::Duplicate, "Duplicate population", told).clicked() {
                 let copy = draft.planet.life[at].clone();
-                let (seed, name) = (random_seed() as u32, unique_name(draft.planet, &copy.name));
+                let seed = free_seed(&draft.planet.life, random_seed() as u32);
+                let name = unique_name(draft.planet, &copy.name);
                 draft.planet.life.insert(at + 1, Population { seed, name, ..copy });
                 state.selected = at + 1;
                 draft.name_edit("Duplicate population");
@@ -148,6 +149,10 @@ fn list(ui: &mut egui::Ui, state: &mut LifeState, draft: &mut Draft<'_>) {
 }
 
 fn selected(ui: &mut egui::Ui, index: usize, draft: &mut Draft<'_>) {
+    let own = population_path(index).join("seed");
+    for (_, why) in draft.planet.life_doubts().iter().filter(|(path, _)| *path == own) {
+        ui.colored_label(ui.visuals().warn_fg_color, format!("Seed: {why}"));
+    }
     let names = biomes::names(&draft.planet.biomes);
     let population = &mut draft.planet.life[index];
     let (owner, shown) = (population.name.clone(), draft.shown);

@@ -71,6 +71,7 @@ const POPULATION: &[Section] = &[
     open("Form", &["form"]),
     open("Size and colour", &["height_m", "height_spread", "color", "leaf_color", "color_spread", "litter"]),
     open("Place", &["biomes", "slope_from_deg", "slope_to_deg", "shore_m", "in_water"]),
+    folded("Water, ridges and hollows", &["bank_from_m", "bank_to_m", "curvature_from", "curvature_to"]),
     folded(
         "Climate and height",
         &["temperature_from_c", "temperature_to_c", "moisture_from", "moisture_to", "height_from_m", "height_to_m"],

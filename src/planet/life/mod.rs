@@ -1,17 +1,22 @@
 //! What stands on the ground: populations of plants, stones and other objects. `crate::life` places them.
 //!
 //! - `forms`: the forms of objects, and the parameters of each
+//! - `lie`: what populations ask of water near and of ridges and hollows
 //! - `ready`: populations to start from
 //! - `painted`: populations that edits name
+//! - `seeds`: populations that share a seed
 
 mod forms;
+mod lie;
 mod painted;
 mod ready;
+mod seeds;
 
 pub use forms::{
     Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, Form, Mushroom, Palm, Stone, Tendrils, Tree, Tuft,
 };
 pub use ready::{READY_POPULATIONS, ReadyPopulation};
+pub use seeds::free_seed;
 
 use super::Planet;
 use super::param::{Domain, ParamPath, Segment, Stage, Unit, linear, log, params};
@@ -56,6 +61,21 @@ params! {
         moisture_from: f64 = 0.0, "Moisture from", Unit::None, linear(0.0, 1.0), Stage::Life;
         /// Wettest moisture at which the objects stand.
         moisture_to: f64 = 1.0, "Moisture to", Unit::None, linear(0.0, 1.0), Stage::Life;
+        /// Least distance from water: from the bank of a river, or ten times the height over a lake or the sea.
+        #[serde(skip_serializing_if = "lie::is::<0>")]
+        bank_from_m: f64 = 0.0, "From water", Unit::Metres, log(0.0, 10_000.0), Stage::Life;
+        /// Greatest distance from water: from the bank of a river, or ten times the height over a lake or the sea;
+        /// 10000 is any. It is exact beside a river, and follows a straightened course beyond some hundred metres.
+        #[serde(skip_serializing_if = "lie::is::<10_000>")]
+        bank_to_m: f64 = lie::ANY_BANK_M, "Near water", Unit::Metres, log(0.0, lie::ANY_BANK_M), Stage::Life;
+        /// Least curvature of the ground: its height over the mean 50 m around, as a share of these 50 m. From
+        /// 0.05 on are ridges among hills, from 0.2 on crests of mountains; -1 is any.
+        #[serde(skip_serializing_if = "lie::is::<-1>")]
+        curvature_from: f64 = -1.0, "Curvature from", Unit::None, linear(-1.0, 1.0), Stage::Life;
+        /// Greatest curvature of the ground: its height over the mean 50 m around, as a share of these 50 m. Up to
+        /// -0.05 are hollows among hills, up to -0.2 gullies of mountains; 1 is any.
+        #[serde(skip_serializing_if = "lie::is::<1>")]
+        curvature_to: f64 = 1.0, "Curvature to", Unit::None, linear(-1.0, 1.0), Stage::Life;
         /// Least height of the ground above the sea; the beach below stays bare.
         shore_m: f64 = 2.0, "Above the sea", Unit::Metres, linear(0.0, 100.0), Stage::Life;
         /// Whether the objects stand in water, too.
@@ -103,6 +123,8 @@ impl Population {
             ("height_to_m", self.height_from_m, self.height_to_m, "height_from_m"),
             ("temperature_to_c", self.temperature_from_c, self.temperature_to_c, "temperature_from_c"),
             ("moisture_to", self.moisture_from, self.moisture_to, "moisture_from"),
+            ("bank_to_m", self.bank_from_m, self.bank_to_m, "bank_from_m"),
+            ("curvature_to", self.curvature_from, self.curvature_to, "curvature_from"),
         ];
         ranges.into_iter().filter(|(_, from, to, _)| from > to).map(|(field, from, to, other)| {
             let [from, to] = [from, to].map(number_text);
@@ -117,6 +139,8 @@ impl Population {
             (&mut self.height_from_m, &mut self.height_to_m),
             (&mut self.temperature_from_c, &mut self.temperature_to_c),
             (&mut self.moisture_from, &mut self.moisture_to),
+            (&mut self.bank_from_m, &mut self.bank_to_m),
+            (&mut self.curvature_from, &mut self.curvature_to),
         ] {
             if from > to {
                 std::mem::swap(from, to);

@@ -79,6 +79,10 @@ impl Population {
         Self { moisture_from, moisture_to, ..self }
     }
 
+    fn near_water(self, bank_to_m: f64) -> Self {
+        Self { bank_to_m, ..self }
+    }
+
     fn littered(self, litter: f64) -> Self {
         Self { litter, ..self }
     }
@@ -279,7 +283,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                     [0.7, 12.0],
                 )
                 .temperatures(2.0, 40.0)
-                .moistures(0.4, 1.0),
+                .near_water(8.0),
             )
         },
     },

@@ -3,13 +3,15 @@
 /// Writes a struct of parameters: its fields, defaults, serde rules and descriptions.
 ///
 /// Each line is `name: type = default, "Label", unit, domain, stage | stage;`. Its doc comment is the tooltip and the
-/// comment in the saved file. `with { .. }` adds fields that hold parameters of their own.
+/// comment in the saved file. `#[serde(skip_serializing_if = "..")]` leaves a field out of files where it says nothing.
+/// `with { .. }` adds fields that hold parameters of their own.
 macro_rules! params {
     (
         $(#[$struct_attr:meta])*
         pub struct $struct:ident {
             $(
                 $(#[doc = $doc:literal])+
+                $(#[serde(skip_serializing_if = $unsaid:literal)])?
                 $name:ident: $type:ty = $default:expr, $label:literal, $unit:expr, $domain:expr, $($stage:path)|+;
             )*
         }
@@ -24,7 +26,7 @@ macro_rules! params {
         #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         #[serde(default, deny_unknown_fields)]
         pub struct $struct {
-            $( $(#[doc = $doc])+ pub $name: $type, )*
+            $( $(#[doc = $doc])+ $(#[serde(skip_serializing_if = $unsaid)])? pub $name: $type, )*
             $($( $(#[doc = $nested_doc])+ pub $nested: $nested_type, )*)?
         }
 

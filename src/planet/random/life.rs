@@ -2,7 +2,7 @@
 
 use super::Kind;
 use super::dice::{Dice, three_digits};
-use crate::planet::life::ReadyPopulation;
+use crate::planet::life::{ReadyPopulation, free_seed};
 use crate::planet::{Biomes, Population};
 
 /// Ready populations of vegetated ground: keys of the biomes, and which of them one is chosen.
@@ -45,7 +45,7 @@ pub(super) fn populations(kind: Kind, biomes: &Biomes, dice: &mut Dice) -> Vec<P
             // The climate is that of the biome.
             let anywhere = Population::default();
             found.push(Population {
-                seed,
+                seed: free_seed(&found, seed),
                 biomes: keys,
                 height_m: three_digits(ready.height_m * height),
                 leaf_color: if name.starts_with("Alien") { ready.leaf_color } else { leaves(ground, ready.leaf_color) },
@@ -62,6 +62,7 @@ pub(super) fn populations(kind: Kind, biomes: &Biomes, dice: &mut Dice) -> Vec<P
         let Some(ready) = ReadyPopulation::named(name) else { continue };
         let rock = if *name == "Ice block" { ready.color } else { rock(biomes) };
         let darker = rock.map(|part| three_digits(0.7 * part));
+        let seed = free_seed(&found, seed);
         found.push(Population { seed, color: rock, leaf_color: darker, ..ready });
     }
     found

@@ -14,6 +14,8 @@ pub(crate) const LAYERS: usize = 4;
 pub(crate) const LAYER_ROWS: usize = 9;
 /// Rows of a biome.
 pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
+/// Share of its area that counts in the choice of populations of a biome for one that stands in few of its places.
+const RARELY: f64 = 0.05;
 /// Row of a population that begins with its slopes, and a slope that no ground has.
 const SLOPES: usize = 2;
 const NO_SLOPE_DEG: f32 = 1000.0;
@@ -46,10 +48,14 @@ impl CanopyRows {
     /// The canopies of a body's populations, as far as they are known.
     pub(crate) fn new(body: &Body<'_>) -> Self {
         let scenery = &body.surface.scenery;
-        let planting = |index: usize| scenery.planting.as_ref().and_then(|map| map.populations.get(index).copied());
+        let planting = |index: usize, population: &Population| {
+            let map = scenery.planting.as_ref().and_then(|map| map.populations.get(index).copied());
+            // Without its channel one that asks for water, ridges or hollows would be seen everywhere.
+            map.unwrap_or_else(|| (!population.asks_lie()).then_some((0, false)))
+        };
         let layers = layers(scenery, populations(body)).zip(&scenery.reach_m).enumerate();
         let layers = layers.filter_map(|(index, ((population, layer), reach_m))| {
-            Some((population, layer?, *reach_m, planting(index).unwrap_or_default()))
+            Some((population, layer?, *reach_m, planting(index, population)?))
         });
         let layers = layers.map(|(population, layer, reach_m, (channel, is_planted))| {
             let ([r, g, b], cover) = (layer.color, &layer.cover);
@@ -75,7 +81,7 @@ impl CanopyRows {
                 biomes: population.biomes.clone(),
                 is_planted,
                 height_m: layer.height_m,
-                area: layer.top + layer.side,
+                area: (layer.top + layer.side) * if population.asks_lie() { RARELY } else { 1.0 },
                 texels: texels.map(|row| row.map(|number| number as f32)),
             }
         });

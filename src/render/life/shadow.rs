@@ -113,8 +113,8 @@ impl Cascades {
         (out.has_shadows, out.has_casters) = (u32::from(self.has_objects), u32::from(self.has_casters));
     }
 
-    /// Whether objects of a cell may cast shadows into any cascade. `reach`: distance from its foot within which an object
-    /// lies, in heights.
+    /// Whether objects of a cell may cast shadows into any cascade. `reach`: distance from its foot within which an
+    /// object lies, in heights.
     pub(super) fn reaches(&self, cell: &SceneryCell, reach: f64, eye_m: DVec3) -> bool {
         let reach_m = 1.5 * self.maps[CASCADES - 1].radius_m + cell.radius_m(reach);
         (cell.center_planet_m - eye_m).distance(self.center_rel_m) < reach_m

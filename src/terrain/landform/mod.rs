@@ -74,7 +74,7 @@ pub(crate) use scratch::Scratch;
 use scratch::{Folded, JETS, Scratch64};
 use std::sync::Arc;
 pub(crate) use structure::coarsest_spacing_rad;
-pub(crate) use structure::river_points;
+pub(crate) use structure::{river_banks, river_points};
 use varying::Around;
 
 /// Lists the kinds: `Kind in file`.

@@ -75,6 +75,7 @@ struct Memory {
     /// The answers at the points of the newest chunk.
     points: Vec<RiverPoint>,
     flows: Vec<Flow>,
+    banks: Vec<f64>,
     chunks: [LayerShares; CHUNKS],
     newest: usize,
 }
@@ -155,6 +156,16 @@ pub(crate) fn river_points(rivers: &Rivers, dirs: &[DVec3], spacing_rad: f64, an
             memory.evaluate(rivers, dirs, spacing_rad, levels);
         }
         answer(&memory.points);
+    });
+}
+
+/// Distances of unit directions from the nearest bank, as angles, on the levels of [`river_points`]: 0 in a river,
+/// infinity where none is known.
+pub(crate) fn river_banks(rivers: &Rivers, dirs: &[DVec3], spacing_rad: f64, answer: impl FnOnce(&[f64])) {
+    let levels = rivers.levels_for(spacing_rad, VALUE_POINTS);
+    MEMORY.with_borrow_mut(|Memory { cache, banks, .. }| {
+        rivers.banks(dirs, levels, cache, banks);
+        answer(banks);
     });
 }
 

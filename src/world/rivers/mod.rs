@@ -12,6 +12,7 @@
 //! - `channel`: the beds of rivers at a point, and how far layers over the structure stand from them
 //! - `courses`: rivers from source to mouth
 //! - `evaluate`: ground, water and river at points; `bounds`: bounds of the ground near a direction
+//! - `bank`: distances from the banks of rivers
 //! - `flow`: shares of rivers in the footprints of points, to be drawn; `shore`: the drawn surface of lakes
 //!
 //! The solved ground is a smooth raster. Each level of reaches is laid over it: on a reach the ground is the reach's
@@ -22,6 +23,7 @@
 //! Answers are pure functions of the drainage, the direction and the number of levels: f64 with correctly rounded
 //! operations and `libm`, sums in the order of levels, cells and pieces.
 
+mod bank;
 mod blend;
 mod block;
 mod bounds;
