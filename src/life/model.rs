@@ -13,9 +13,9 @@ pub struct Model {
     /// For each variant, its levels of detail, nearest first. Height 1, z up, the foot at the origin.
     pub variants: Vec<[Mesh; form::LEVELS]>,
     /// For each level of detail, a factor on its light that makes all of them equally bright.
-    pub(crate) level_light: [f64; form::LEVELS],
+    pub level_light: [f64; form::LEVELS],
     /// Distance from the foot within which every mesh lies, in heights.
-    pub(crate) reach: f64,
+    pub reach: f64,
 }
 
 impl Model {

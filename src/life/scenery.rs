@@ -65,7 +65,7 @@ pub struct SceneryCell {
 impl SceneryCell {
     /// Radius of a sphere that holds the objects. `reach`: distance from its foot within which an object lies, in
     /// heights.
-    pub(crate) fn radius_m(&self, reach: f64) -> f64 {
+    pub fn radius_m(&self, reach: f64) -> f64 {
         self.feet_radius_m + reach * self.tallest_m
     }
 }

@@ -191,7 +191,7 @@ fn the_twilight_of_shipped_planets_is_as_bright_as_by_path_tracing() {
         [5.602e-5, 3.165e-5, 1.212e-5],
         [1.362e-6, 1.091e-6, 8.023e-7],
     ];
-    let aurel = [
+    let alder = [
         [4.880e-4, 4.492e-4, 8.703e-4],
         [1.572e-4, 9.548e-5, 2.108e-4],
         [1.319e-4, 7.251e-5, 1.742e-4],
@@ -200,7 +200,7 @@ fn the_twilight_of_shipped_planets_is_as_bright_as_by_path_tracing() {
         [8.573e-5, 8.009e-5, 2.235e-4],
         [8.014e-6, 9.828e-6, 4.013e-5],
     ];
-    for (file, figures) in [("cinnabar.ron", cinnabar), ("garland.ron", garland), ("aurel.ron", aurel)] {
+    for (file, figures) in [("cinnabar.ron", cinnabar), ("garland.ron", garland), ("alder.ron", alder)] {
         let air = shipped_air(file);
         for (ray, expected) in rays.iter().zip(figures) {
             let found = air.radiance(ray);

@@ -111,9 +111,16 @@ fn all_queries_of_a_point_agree() {
     let alone = |wanted| terrain.samples(&dirs, wanted);
     let (normals, climates) = (alone(Wanted::HEIGHT.and_normal()), alone(Wanted::HEIGHT.and_climate()));
     let biomes = alone(Wanted::HEIGHT.and_biome().and_water());
+    let (banks, curved) = (alone(Wanted::HEIGHT.and_biome().and_bank()), alone(Wanted::HEIGHT.and_curvature()));
     for (i, (dir, sample)) in dirs.iter().zip(&samples).enumerate() {
         assert_eq!(terrain.sample(*dir), *sample);
-        assert_eq!(biomes[i], *sample);
+        assert_eq!(curved[i].curvature.to_bits(), sample.curvature.to_bits());
+        let mut level = *sample;
+        level.curvature = 0.0;
+        assert_eq!(banks[i], level);
+        let (asked, found) = (biomes[i], *sample);
+        assert_eq!((asked.biome, asked.cell, asked.slope_rad), (found.biome, found.cell, found.slope_rad));
+        assert_eq!((asked.water_level_m, asked.river, asked.bank_m), (found.water_level_m, found.river, None));
         for height_m in [terrain.height_m(*dir), heights_m[i], normals[i].height_m, climates[i].height_m] {
             assert_eq!(height_m.to_bits(), sample.height_m.to_bits());
         }
