@@ -115,7 +115,7 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         let color = biome_param(id, row);
         let shape = biome_param(id, row + 1);
         let kind = biome_param(id, row + 4);
-        let height_m = biome_param(id, row + 5).w;
+        let height_m = biome_param(id, row + 5).z;
         var stand = 0.0;
         if i == most { stand = stands(kind.x, body.eye_wrap_far_m + place.rel_m, place.footprint_m); }
         let density = densities[i] * max(1.0 + GROUPS * kind.y * stand, 0.0);
@@ -258,8 +258,7 @@ fn canopy_radiance(canopy: Canopy, sunlight: vec3f, sky: vec3f, sun_cosine: f32,
         let closed = layer.casts * (1.0 - exp(-layer.areas.x));
         let aslant = mix(TOPS_ASLANT, TOPS_AGAINST, rays.against);
         let tops = mix(TOPS_FROM_ABOVE, aslant, saturate1(rays.eye_deg / COVER_EYES_DEG.y));
-        let more = tops;
-        let light = object_light(layer.at, rays) * (1.0 + closed * more);
+        let light = object_light(layer.at, rays) * (1.0 + closed * tops);
         let of_sun = sunlight * (sun * layer.relief.x * light.x);
         sum += layer.seen * layer.albedo * (of_sun + sky * (open * layer.relief.y * light.y));
     }

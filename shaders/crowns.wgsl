@@ -27,9 +27,10 @@ const JITTER: f32 = 0.65;
 // Cosine to the normal of the ground below which rays are taken as steeper: flatter ones would see the highest tops
 // alone. Of those that are much flatter the mean is shown.
 const LEAST_MU: f32 = 0.17;
-// Light of the domes that flat rays meet, over the mean: the sun behind the eye, and before it.
-const TOPS_BEHIND: f32 = 0.15;
-const TOPS_BEFORE: f32 = 0.36;
+// Cosine below which rays meet the lit tops more and more. Light of these tops over the mean: the sun behind the eye
+// (x), and before it (y).
+const FLAT_MU: f32 = 0.55;
+const FLAT_TOPS: vec2f = vec2f(0.15, 0.36);
 // Depth of the saddles between closed crowns, as a share of the depth of a dome.
 const SADDLE: f32 = 0.6;
 // Way of the ray from one step to the next, at the most, in cells.
@@ -170,9 +171,8 @@ fn crowns_seen(
     let towards_sun = textureSampleLevel(noise_tile, repeated, hit + 0.05 * sun.yzx, max(lod, 0.0)).r;
     let twigs = max((1.0 + TWIGS.x * (2.0 * twig - 1.0)) * (1.0 - TWIGS.y * (towards_sun - twig)), 0.1);
     let open = smoothstep(height_m - 1.6 * depth_m, height_m, z);
-    // On flat rays one sees the tops alone, which have more light than the mean.
-    let away = -dot(to_eye, to_sun) / max(length(to_eye) * length(to_sun), 1e-6);
-    let tops = 1.0 + mix(TOPS_BEHIND, TOPS_BEFORE, 0.5 + 0.5 * away) * smoothstep(0.55, LEAST_MU, mu);
+    let against = 0.5 - 0.5 * dot(to_eye, to_sun) / max(length(to_eye) * length(to_sun), 1e-6);
+    let tops = 1.0 + mix(FLAT_TOPS.x, FLAT_TOPS.y, against) * smoothstep(FLAT_MU, LEAST_MU, mu);
     let tint = twigs * (1.0 + 0.5 * (dome.w - 0.5)) / tops;
     out.random = fract(dome.w * 31.0);
     out.relief = tint * vec2f(lit * (1.0 - 0.75 * shadow) * mix(0.4, 1.12, open), mix(0.45, 1.2, open));

@@ -1,4 +1,4 @@
-//! Things of a game that cast shadows: what draws them into the maps of shadows, and what it is told about a map.
+//! Casters: things of a game that are drawn into the maps of shadows, and the view of such a map.
 //!
 //! The renderer draws the maps in [`Renderer::prepare`], one pass each. A game's pipeline for them has group 0 of
 //! [`Renderer::caster_layout`], [`ShadowView::depth_state`] and no colour; its shader begins with

@@ -57,8 +57,8 @@ pub struct Sample {
     /// Distance from the nearest water, 0 in it: from the bank of a river as far as rivers are known, and from a lake
     /// or the sea as ten times the height over its level, as if all shores rose one in ten. None if no water is known.
     pub bank_m: Option<f64>,
-    /// Whether that follows from a height.
-    pub(crate) bank_by_height: bool,
+    /// Whether that distance follows from a height over a lake or the sea.
+    pub bank_by_height: bool,
     /// The lake whose water it is.
     pub lake: Option<u32>,
     /// The basin that the cell of the point drains to, on the finest grid of rivers; none in the sea.

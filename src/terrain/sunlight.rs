@@ -32,7 +32,7 @@ impl Terrain {
         let surface_m = radius_m + height_m[0].max(self.planet().sea_level_m().unwrap_or(f64::MIN));
         let away_m = point_planet_m.length().max(surface_m + LEAST_HEIGHT_M);
         let from_m = up * away_m;
-        // Parts of the disc are told by their height over its middle, in radii.
+        // Heights on the disc are in radii, from its middle.
         let beside = (up - dir * up.dot(dir)).normalize_or(dir.any_orthonormal_vector());
         let mut is_free = |height: f64| {
             let (sin, cos) = (height * sun_radius_rad).sin_cos();
@@ -46,7 +46,7 @@ impl Terrain {
         if smooth >= 1.0 || !is_free(1.0) {
             return 0.0;
         }
-        if is_free(smooth.max(-1.0)) {
+        if is_free(smooth) {
             return 1.0;
         }
         let (mut hidden, mut free) = (smooth, 1.0);
@@ -58,7 +58,7 @@ impl Terrain {
     }
 }
 
-/// Share of a disc above a level, which is told in radii over its middle.
+/// Share of a disc above a level, in radii from its middle.
 fn disc_above(level: f64) -> f64 {
     (level.acos() - level * (1.0 - level * level).max(0.0).sqrt()) / PI
 }

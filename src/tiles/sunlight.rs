@@ -13,7 +13,7 @@ const LEAST_RADIUS_RAD: f64 = 0.0015;
 impl Surface {
     /// Share of the disc of a sun that the surrounding ground leaves to a place on the ground, as the picture shows it:
     /// from the horizon angles of the tile there. None without them. It is the share of
-    /// [`crate::terrain::Terrain::sun_share`] for a thousandth of the time, for places on the ground alone: what stands
+    /// [`crate::terrain::Terrain::sun_share`] for a hundredth of the time, for places on the ground alone: what stands
     /// on a tower sees more of the sun than its foot.
     pub fn sun_share(&self, place_planet_m: DVec3, sun_dir_planet: DVec3, sun_radius_rad: f64) -> Option<f64> {
         let (up, sun_dir) = (place_planet_m.try_normalize()?, sun_dir_planet.try_normalize()?);

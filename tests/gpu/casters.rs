@@ -63,7 +63,7 @@ fn cast_vertex(@location(0) rel_m: vec3f) -> @builtin(position) vec4f {
 ";
 
 impl Caster {
-    /// A box around a point, which is told in metres east, north and up of the place.
+    /// A box around a point: metres to the east, to the north and up from the place.
     fn new(gpu: &Gpu, eye_m: DVec3, local_m: DVec3, half_m: DVec3) -> Self {
         let middle_m = around().up_planet * RADIUS_M + around().planet(local_m);
         let mut corners: Vec<[f32; 3]> = Vec::new();

@@ -1,6 +1,7 @@
 //! The cost of life on the ground: meshes, places, what a view keeps, and frames with and without it.
 
 use super::super::headless::Gpu;
+use super::super::tell;
 use super::frames::{QUALITIES, SIZE_PX};
 use super::{median, repeat};
 use crate::life::{Canopies, Model, Scenery};
@@ -88,7 +89,7 @@ fn frame(
     let (bare_ms, bare) = frame_of(gpu, &surface, view)?;
     let times_bare = frame_ms / bare_ms;
     // All views together take minutes on a software driver.
-    eprintln!("life: {name}, {height_m} m: {frame_ms:.0} ms, {times_bare:.2} times a bare ground");
+    tell(&format!("life: {name}, {height_m} m: {frame_ms:.0} ms, {times_bare:.2} times a bare ground"));
     Some(json!({
         "quality": name,
         "height_m": height_m,

@@ -5,6 +5,7 @@ use super::math::{TURN, around, smooth};
 use super::{LEVELS, sight};
 use crate::planet::Form;
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
 /// Angles of the eye from the zenith, degrees.
 pub(crate) const EYES_DEG: [f32; 2] = [0.0, 60.0];
@@ -64,7 +65,8 @@ impl Cover {
             }
         }
         let share = 1.0 / f64::from(TURNS);
-        let even = share * evened(sunlight(&near, 0), sunlight(&mesh, LEVELS - 1), sunlight(&mesh, LEVELS - 1));
+        let far = sunlight(&mesh, LEVELS - 1);
+        let even = share * evened(sunlight(&near, 0), far, far);
         // From above all levels show the same tops.
         let from = |view: usize| if view == 0 { share } else { even };
         out.sky = std::array::from_fn(|view| out.sky[view] * from(view));
@@ -79,7 +81,8 @@ const EVENED: [f64; 2] = [0.6, 1.6];
 /// Factors on the light of each level of detail that make all of them equally bright: single leaves shade one another
 /// more than the smooth crowns of coarse levels do.
 pub(crate) fn level_light(meshes: &[Mesh; LEVELS]) -> [f64; LEVELS] {
-    let seen: [f64; LEVELS] = std::array::from_fn(|level| sunlight(&meshes[level], level));
+    let mut seen = [0.0; LEVELS];
+    seen.par_iter_mut().zip(meshes).enumerate().for_each(|(level, (seen, mesh))| *seen = sunlight(mesh, level));
     seen.map(|own| evened(seen[0], own, seen[LEVELS - 1]))
 }
 

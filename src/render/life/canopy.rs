@@ -72,7 +72,7 @@ impl CanopyRows {
                     population.temperature_to_c,
                 ],
                 [layer.width_m, population.clumping, shore_m, layer.casting],
-                [cover.sun[0][0], cover.sun[0][1], shading(&layer), layer.height_m],
+                [cover.sun[0][0], cover.sun[0][1], layer.height_m, 0.0],
                 [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
                 [fallen[0], fallen[1], fallen[2], littered],
                 [layer.through[0], layer.through[1], layer.through[2], f64::from(channel)],

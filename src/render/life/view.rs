@@ -121,15 +121,19 @@ impl LifeView {
         let coarser = usize::from(view.quality == Quality::Low);
         let mut seen = Bins::new(scenery.models.len());
         let mut casting: [Bins; CASCADES] = std::array::from_fn(|_| Bins::new(scenery.models.len()));
-        let reaches: Vec<f64> =
-            scenery.models.iter().map(|model| model.as_ref().map_or(0.0, |model| model.reach)).collect();
         for cell in &scenery.cells {
-            let reach = reaches.get(usize::from(cell.population)).copied().unwrap_or_default();
-            let is_seen = culling.sees_sphere(cell.center_planet_m, cell.radius_m(reach));
-            let casts = cascades.is_some_and(|cascades| cascades.reaches(cell, reach, drawn.eye_m));
             let index = usize::from(cell.population);
             let known = populations.get(index).zip(levels_px.get(index));
-            let (Some((population, level_px)), true) = (known, is_seen || casts) else { continue };
+            let (Some((population, level_px)), Some(Some(model))) = (known, scenery.models.get(index)) else {
+                continue;
+            };
+            // The wind moves the tips aside.
+            let reach = model.reach + population.sway;
+            let is_seen = culling.sees_sphere(cell.center_planet_m, cell.radius_m(reach));
+            let casts = cascades.is_some_and(|cascades| cascades.reaches(cell, reach, drawn.eye_m));
+            if !(is_seen || casts) {
+                continue;
+            }
             let shade = horizons.of(cell).filter(|_| is_seen).and_then(|tile| {
                 let at = tiles.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile))?;
                 Some(Shade { at, within: within(cell.id, tile.id) })
@@ -142,15 +146,19 @@ impl LifeView {
             let reach_m = scenery.reach_m.get(index).copied().unwrap_or(0.0);
             for object in cell.objects.iter().filter(|object| !hidden.holds(object.id)) {
                 let Some(shown) = drawn.shown(object, reach_m, level_px) else { continue };
+                let is_seen = is_seen && culling.sees_sphere(object.foot_planet_m, reach * shown.size_m);
+                let casts_into = |cascade: &usize| casts && drawn.casts(*cascade, &shown);
+                if !is_seen && !(0..CASCADES).any(|cascade| casts_into(&cascade)) {
+                    continue;
+                }
                 let instance = look.instance(object, &shown);
                 let variant = usize::from(object.variant);
-                if is_seen && culling.sees_sphere(object.foot_planet_m, reach * shown.size_m) {
+                if is_seen {
                     seen.add(array, (index, variant, shown.level), instance);
                 }
-                for (cascade, bins) in casting.iter_mut().enumerate().filter(|_| casts) {
-                    if drawn.casts(cascade, &shown) {
-                        bins.add(0, (index, variant, (shown.level + cascade + coarser).min(LEVELS - 1)), instance);
-                    }
+                for cascade in (0..CASCADES).filter(casts_into) {
+                    let level = (shown.level + cascade + coarser).min(LEVELS - 1);
+                    casting[cascade].add(0, (index, variant, level), instance);
                 }
             }
         }
