@@ -3,7 +3,13 @@
 // meets, as factors on the mean of the canopy; so the mean stays, and crowns that grow too narrow fade into it.
 
 // Pixels across a crown at which it begins to be told from its neighbours, and at which it is drawn whole.
-const CROWN_PIXELS: vec2f = vec2f(1.6, 4.0);
+const CROWN_PIXELS: vec2f = vec2f(1.3, 3.0);
+// Cosines to the normal of the ground between which single crowns are told: on flatter rays the mean is shown.
+const FLATTEST_MU: vec2f = vec2f(0.015, 0.06);
+// Grain of narrower crowns: width of a grain in pixels, grains along its tile, and the strength of one crown.
+const GRAIN_PIXELS: f32 = 2.5;
+const GRAINS_PER_TILE: f32 = 4.0;
+const GRAIN: f32 = 0.4;
 // Width of the smallest objects that are told apart: the lattice is as exact as 32 bits are.
 const LEAST_WIDTH_M: f32 = 1.0;
 // Spacing of domes over their width, at the least: denser ones would be hidden.
@@ -25,7 +31,7 @@ const HEIGHTS: f32 = 0.7;
 // Way of a dome within its cell, in cells.
 const JITTER: f32 = 0.65;
 // Cosine to the normal of the ground below which rays are taken as steeper: flatter ones would see the highest tops
-// alone. Of those that are much flatter the mean is shown.
+// alone.
 const LEAST_MU: f32 = 0.17;
 // Cosine below which rays meet the lit tops more and more. Light of these tops over the mean: the sun behind the eye
 // (x), and before it (y).
@@ -90,6 +96,21 @@ fn lattice_axes(up: vec3f) -> mat2x3f {
     return mat2x3f(0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
 }
 
+// Grain of crowns that are too narrow to be told apart: a factor of mean 1 on their light. Its grains are some pixels
+// wide; the more crowns one holds, the more they even out.
+fn crown_grain(width_m: f32, place: CanopyPlace) -> f32 {
+    let octave = max(log2(max(GRAIN_PIXELS * place.footprint_m / width_m, 1.0)), 0.0);
+    let at_m = (body.eye_wrap_far_m + place.rel_m).zxy;
+    var grains = vec2f(0.0);
+    for (var i = 0; i < 2; i++) {
+        let crowns = exp2(floor(octave) + f32(i));
+        let tile_m = wrapping_m(GRAINS_PER_TILE * crowns * width_m);
+        let lod = max(log2(place.footprint_m * NOISE_TILE_SIDE / tile_m), 0.0);
+        grains[i] = (2.0 * textureSampleLevel(noise_tile, repeated, at_m / tile_m, lod).r - 1.0) / crowns;
+    }
+    return 1.0 + GRAIN * mix(grains.x, grains.y, fract(octave));
+}
+
 // Crowns of a population. `covered`: area of all its objects for each area of ground where everything suits them;
 // `side`: the same from the side; `density`: share of it.
 fn crowns_seen(
@@ -100,7 +121,7 @@ fn crowns_seen(
     let across = width_m / max(place.distance_m * frame.pixel_rad, 1e-6);
     let clear = smoothstep(CROWN_PIXELS.x, CROWN_PIXELS.y, across)
         * smoothstep(LEAST_WIDTH_M, 2.0 * LEAST_WIDTH_M, width_m)
-        * smoothstep(0.2 * LEAST_MU, 0.6 * LEAST_MU, dot(n, v));
+        * smoothstep(FLATTEST_MU.x, FLATTEST_MU.y, dot(n, v));
     var out = CrownsSeen(clear, 0.0, vec2f(1.0), 0.5);
     if clear <= 0.0 { return out; }
     // As many domes as objects, each as wide as one.
