@@ -90,7 +90,7 @@ fn taps_along(seen: Seen, texel_m: f32, most: u32) -> u32 {
     let x = length(seen.rel_x);
     let y = length(seen.rel_y);
     let needed = max(x, y) / max(min(x, y), texel_m);
-    return min(most, select(select(4u, 2u, needed < 2.8), 1u, needed < 1.4));
+    return min(most, select(select(select(8u, 4u, needed < 5.6), 2u, needed < 2.8), 1u, needed < 1.4));
 }
 
 // Temperature of glowing ground relative to the mean (1): the crust varies in thickness. Without this, the glow, the
@@ -131,7 +131,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     // The finer scale is for the ground at one's feet; it also hides the repetition of the coarser scale.
     let scales = select(1u, 2u, frame.pattern_quality > 0.0 && lod < 7.0);
     let is_low = frame.pattern_quality == 0.0;
-    let most_steps = select(1u << u32(frame.pattern_quality), select(1u, 2u, lod < LOW_TAPS_LOD), is_low);
+    let most_steps = select(2u << u32(frame.pattern_quality), select(1u, 2u, lod < LOW_TAPS_LOD), is_low);
     let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, most_steps);
     let tap_width = select(1.0, LOW_TAP_WIDTH, is_low) / f32(steps);
     let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);

@@ -1,10 +1,11 @@
 //! Biomes as materials: colour near and far, and queried against drawn biomes.
 
-use crate::support::{Gpu, SIZE_PX, camera, frame, gpu, surface_of, view_of};
+use crate::support::{Gpu, SIZE_PX, camera, frame, frame_of, gpu, surface_of, view_of};
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Biome, Biomes, Detail, Fbm, Layer, Planet, Shape, Steep, Table};
 use tellus::render::DebugView;
+use tellus::sphere::LatLon;
 use tellus::tiles::Surface;
 
 const PLACE: (f64, f64) = (37.0, 20.0);
@@ -272,5 +273,48 @@ fn a_full_moon_has_no_dots() {
             let (here, before) = (level(x, y), level(x - 1, y));
             assert!(here > 40 && (here - before).abs() < 25, "{here} beside {before} at {x}, {y}");
         }
+    }
+}
+
+/// Size of a picture of ground some 50 m away through a long lens, whose pixels are as wide as those of a window.
+const LONG_LENS_PX: [u32; 2] = [96, 64];
+const LONG_LENS_FOV_DEG: f64 = 4.2;
+
+/// Contrast of gravel 40 to 65 m away, seen from 2 m: standard deviation over mean along rows. A pixel is the mean of
+/// `samples` x `samples`.
+fn contrast_at_50_m(gpu: &mut Gpu, quality: Quality, samples: u32) -> f64 {
+    let planet = Arc::new(ball(Biome { detail: Detail::Gravel, ..grey(0.25) }));
+    let camera = camera(&planet, PLACE.0, PLACE.1, 2.0, 0.0, -2.3);
+    let camera = Camera { fov_y_rad: LONG_LENS_FOV_DEG.to_radians(), ..camera };
+    let view = View { camera, size_px: LONG_LENS_PX.map(|side| side * samples), quality };
+    let surface = surface_of(&planet, &view);
+    let sun = LatLon::from_degrees(PLACE.0 + 20.0, PLACE.1 + 40.0).direction();
+    let light = gpu.radiance(&frame_of(&surface, &planet, view, sun));
+    let [width, _] = view.size_px;
+    let pixel = |x: u32, y: u32| {
+        let inside = (0..samples * samples).map(|i| (x * samples + i % samples, y * samples + i / samples));
+        inside.map(|(x, y)| f64::from(light[(y * width + x) as usize][1])).sum::<f64>() / f64::from(samples.pow(2))
+    };
+    let rows = LONG_LENS_PX[1] * 2 / 5..LONG_LENS_PX[1] * 3 / 5;
+    let contrasts: Vec<f64> = rows
+        .map(|y| {
+            let row: Vec<f64> = (0..LONG_LENS_PX[0]).map(|x| pixel(x, y)).collect();
+            let mean = row.iter().sum::<f64>() / row.len() as f64;
+            (row.iter().map(|light| (light - mean).powi(2)).sum::<f64>() / row.len() as f64).sqrt() / mean
+        })
+        .collect();
+    contrasts.iter().sum::<f64>() / contrasts.len() as f64
+}
+
+/// Ground 50 m away has most of the contrast of a picture with 64 samples a pixel, and no more: it is neither smeared
+/// nor does it sparkle.
+#[test]
+fn patterns_at_a_slant_keep_their_contrast() {
+    let mut gpu = gpu();
+    for quality in [Quality::Medium, Quality::High] {
+        let [shown, truth] = [1, 8].map(|samples| contrast_at_50_m(&mut gpu, quality, samples));
+        println!("{quality:?}: {shown:.4} shown, {truth:.4} with 64 samples");
+        assert!(truth > 0.01, "{truth}: nothing is seen of the pattern");
+        assert!(shown > 0.6 * truth && shown < 1.3 * truth, "{quality:?}: {shown} shown, {truth} with 64 samples");
     }
 }
