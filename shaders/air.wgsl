@@ -1,6 +1,6 @@
 // The air in front of the scene, from 2 m over the ground to outer space: one march for each pixel. Composites clouds
 // at their distance, and draws stars and the discs of the suns behind everything. Reads the scene and writes a new one.
-#include "surface.wgsl"
+#include "contact_shade.wgsl"
 #include "scattering.wgsl"
 #include "stars.wgsl"
 #include "ring_pieces.wgsl"
@@ -303,6 +303,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     let far = surface_distance(pixel, ray_length);
     let ground = far < NOTHING_KM;
     var scene = textureLoad(scene_color, pixel, 0).rgb;
+    if ground { scene *= contact_light(pixel, far * 1000.0); }
     let starry = !ground && body.is_backmost != 0u;
     var coronas = vec3f(0.0);
     if starry { scene = NIGHT_BACKGROUND * NIGHT_SKY; }
