@@ -7,6 +7,7 @@
 #include "crowns.wgsl"
 #include "hues.wgsl"
 #include "planting.wgsl"
+#include "litter.wgsl"
 
 // A population at a pixel.
 struct CanopyLayer {
@@ -42,6 +43,8 @@ struct Canopy {
     through: vec3f,
     // What has fallen from the objects: its colour, and the share of the floor that it covers
     litter: vec4f,
+    // Material of the objects that most of it has fallen from
+    litter_kind: u32,
 }
 
 // What decides about the density at a pixel.
@@ -107,6 +110,7 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
     var bare = 1.0;
     var fallen = vec4f(0.0);
     var through = vec4f(0.0);
+    var most_littered = 0.0;
     for (var i = 0; i < count && most_seen > 0.0; i++) {
         if densities[i] <= 0.0 { continue; }
         // What higher objects hide does not count.
@@ -129,7 +133,7 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
             let left = (1.0 - drawn) * density;
             let crowns = crowns_seen(kind.x, height_m, color.w, shape.x, left, place, body.suns[0].dir);
             rest = mix(rest, 1.0 - crowns.hit, crowns.clear);
-            relief = mix(vec2f(1.0), crowns.relief, crowns.clear) * (1.0 + STANDS * stand);
+            relief = mix(vec2f(crown_grain(kind.x, place)), crowns.relief, crowns.clear) * (1.0 + STANDS * stand);
             albedo = hue_of_one(color.rgb, mix(0.5, crowns.random, crowns.clear) + STAND_HUES * stand);
         }
         (*canopy).layers[end] = CanopyLayer(
@@ -141,6 +145,10 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         let littered = litter.w * (1.0 - exp(-areas.x / LITTER_AREA));
         bare *= 1.0 - littered;
         fallen += littered * vec4f(litter.rgb, 1.0);
+        if littered > most_littered && share > 0.5 {
+            most_littered = littered;
+            (*canopy).litter_kind = u32(biome_param(id, row + 5).w + 0.5);
+        }
         through += kind.w * areas.x * vec4f(biome_param(id, row + 8).rgb, 1.0);
     }
     (*canopy).through += share * through.rgb / max(through.w, 1e-6);
@@ -161,13 +169,19 @@ fn canopy_at(ids: vec2<i32>, shares: vec2f, place: CanopyPlace) -> Canopy {
     return out;
 }
 
-// Colour of the ground with what has fallen on it. `tint`: factor of the ground's pattern.
-fn littered(litter: vec4f, ground: vec3f, tint: vec3f) -> vec3f {
-    let share = litter.w;
-    if share <= 0.003 { return ground; }
+// Covers the ground with what has fallen on it.
+fn littered(canopy: Canopy, place: CanopyPlace, ground: ptr<function, Material>) {
+    let share = canopy.litter.w;
+    if share <= 0.003 { return; }
+    let axes = lattice_axes(normalize(body.eye_km + place.rel_m * 0.001));
+    let at_m = (body.eye_wrap_m + place.rel_m) * axes;
+    let leaves = fallen_leaves(canopy.litter_kind, saturate1(share), at_m, place.footprint_m);
     // Leaves gather in the hollows of the pattern, which are dark.
-    let covered = saturate1(share + 1.6 * share * (1.0 - share) * (1.0 - luminance(tint)));
-    return mix(ground, litter.rgb / share * tint, covered);
+    let hollows = saturate1(share + 1.6 * share * (1.0 - share) * (1.0 - luminance((*ground).tint)));
+    let covered = mix(hollows, leaves.cover, leaves.clear);
+    let tint = leaves.tint * mix((*ground).tint, vec3f(1.0), 0.7 * leaves.clear);
+    (*ground).albedo = mix((*ground).albedo, canopy.litter.rgb / share * tint, covered);
+    (*ground).slope = mix((*ground).slope, axes * leaves.slope, covered * leaves.clear);
 }
 
 // What objects of all layers leave to the ground: of the light of a sun with this tangent, and of the sky.

@@ -15,6 +15,8 @@ const GRAIN_HEIGHT: f32 = 0.10;
 const LEAF_M: f32 = 0.09;
 // How leaves and twigs of one object differ in colour.
 const LEAF_TINTS: vec3f = vec3f(0.45, 0.40, 0.25);
+// How the blades of a tuft differ in colour.
+const BLADE_TINTS: vec3f = vec3f(1.0, 0.7, 0.4);
 // Distance from one needle to the next, and width of a twig with needles, metres.
 const NEEDLES_M: f32 = 0.014;
 const TWIG_M: f32 = 0.18;
@@ -148,9 +150,21 @@ fn needles(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
     return ObjectMaterial(tint, 0.0, 0.5 * clear * turn, clear * mix(gaps.x, gaps.y, fract(octave)));
 }
 
+// Blades of a tuft: stains that differ from blade to blade, and a fine grain along them.
+fn blades(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
+    var out = PLAIN;
+    let clear = clear_at(0.1 * size_m, pixel_m);
+    if clear <= 0.0 { return out; }
+    let stain = lattice_noise(p_m / (0.16 * size_m)) - 0.5;
+    let fine = lattice_noise(p_m * vec3f(1.0, 1.0, 0.3) / (0.03 * size_m)) - 0.5;
+    out.tint = 1.0 + clear * (stain * BLADE_TINTS + 0.35 * fine);
+    return out;
+}
+
 // `leaf`: share of the second colour. `p_m`: place in the form.
 fn object_material(kind: u32, leaf: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     if kind == ROCK { return rock(p_m, size_m, pixel_m); }
+    if kind == BLADED { return blades(p_m, size_m, pixel_m); }
     if kind >= LEAFY && leaf < 0.5 { return bark(p_m, pixel_m); }
     if kind == LEAFY { return leaves(p_m, size_m, pixel_m); }
     if kind == NEEDLED { return needles(p_m, pixel_m); }

@@ -446,7 +446,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     // Nothing stands in a river: through its water one sees the bed.
     let on_land = 1.0 - smoothstep(0.4, 0.9, wet);
     let canopy = canopy_at(ground.biomes, on_land * ground.shares, place);
-    ground.albedo = littered(canopy.litter, ground.albedo, ground.tint);
+    littered(canopy, place, &ground);
     if frame.debug_view == VIEW_ALBEDO {
         let albedo = canopy_albedo(canopy, ground.albedo);
         return Shaded(mix(albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);

@@ -22,7 +22,7 @@ const CASTING_M: [f64; 2] = [0.6, 2.0];
 /// Area of objects, for each area of ground, over which fallen leaves close: they fall beside the crowns, too.
 pub(crate) const LITTER_AREA: f64 = 0.4;
 /// Colour of what has fallen as shares of the colour of wood: what rots is darker, and browner.
-const LITTER_OF: [f64; 3] = [0.54, 0.46, 0.33];
+const LITTER_OF: [f64; 3] = [0.52, 0.41, 0.28];
 
 /// Share of sunlight that leaves let through, over their albedo: leaves are about as bright from behind.
 const LET_THROUGH: f64 = 0.72;

@@ -1,6 +1,7 @@
 //! Canopies of biomes in the table of their parameters: what is seen of a population from so far away that its objects
 //! are not drawn one by one. `canopy.wgsl` reads it.
 
+use super::material::Material;
 use super::view::populations;
 use crate::life::Scenery;
 use crate::life::canopy::CanopyLayer;
@@ -72,7 +73,7 @@ impl CanopyRows {
                     population.temperature_to_c,
                 ],
                 [layer.width_m, population.clumping, shore_m, layer.casting],
-                [cover.sun[0][0], cover.sun[0][1], layer.height_m, 0.0],
+                [cover.sun[0][0], cover.sun[0][1], layer.height_m, f64::from(Material::of(&population.form) as u32)],
                 [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
                 [fallen[0], fallen[1], fallen[2], littered],
                 [layer.through[0], layer.through[1], layer.through[2], f64::from(channel)],

@@ -16,6 +16,8 @@ pub(crate) enum Material {
     Needled,
     /// Bark on wood; leaves are those of the mesh.
     Fronded,
+    /// Stains and a fine grain on blades.
+    Bladed,
 }
 
 impl Material {
@@ -26,6 +28,7 @@ impl Material {
             Form::Tree(_) => Self::Leafy,
             Form::Conifer(_) => Self::Needled,
             Form::Palm(_) => Self::Fronded,
+            Form::Tuft(_) => Self::Bladed,
             _ => Self::Plain,
         }
     }

@@ -11,7 +11,7 @@ pub(crate) use constants::*;
 pub use constants::{MAX_POINTS, MAX_SUNS};
 pub(crate) use structs::*;
 
-use super::biome_table::{CANOPY, ROCK, RULES, WRAP_FAR_M};
+use super::biome_table::{CANOPY, ROCK, RULES, WRAP_FAR_M, WRAP_M};
 use super::life::{CANOPY_LAYER_ROWS, CANOPY_LAYERS, Material};
 use super::material_maps::{PATTERN_ROUGHNESS, PATTERN_STEEPEST};
 use super::scene::DebugView;
@@ -87,6 +87,7 @@ pub(crate) fn text() -> String {
         ("BIOME_ROCK", &(ROCK as i32)),
         ("BIOME_RULES", &(RULES as i32)),
         ("MIXTURE_ENTRIES", &MIXTURE_ENTRIES),
+        ("WRAP_M", &WRAP_M),
         ("WRAP_FAR_M", &WRAP_FAR_M),
         // Life
         ("SOFT_DEG", &suitability::SOFT_DEG),
@@ -101,6 +102,8 @@ pub(crate) fn text() -> String {
         ("ROCK", &(Material::Rock as u32)),
         ("LEAFY", &(Material::Leafy as u32)),
         ("NEEDLED", &(Material::Needled as u32)),
+        ("FRONDED", &(Material::Fronded as u32)),
+        ("BLADED", &(Material::Bladed as u32)),
         ("OWN_LEAVES", &f64::from(cover::OWN_LEAVES)),
         ("CANOPY_ROW", &(CANOPY as i32)),
         ("CANOPY_LAYERS", &(CANOPY_LAYERS as i32)),
