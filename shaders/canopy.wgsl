@@ -85,11 +85,14 @@ fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
 
 // Share of a pixel below which lower objects are left out.
 const HIDDEN: f32 = 0.02;
-// Strength of stands in the density of objects that stand in groups.
+// Strength of groves in the density of objects that stand in groups.
 const GROUPS: f32 = 0.8;
 
-// Adds the layers of a biome, the highest first. Single crowns are those of the layer that covers most.
-fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, place: CanopyPlace) {
+// Adds the layers of a biome, the highest first. Single crowns are those of the layer that covers most. `woods_here`:
+// stand of all populations.
+fn add_canopy(
+    canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, place: CanopyPlace, woods_here: f32,
+) {
     let count = i32(biome_param(id, 5).w);
     var end = select(0, (*canopy).ends.x, number == 1);
     var densities = array<f32, CANOPY_LAYERS>();
@@ -120,22 +123,30 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         let shape = biome_param(id, row + 1);
         let kind = biome_param(id, row + 4);
         let height_m = biome_param(id, row + 5).z;
-        var stand = 0.0;
-        if i == most { stand = stands(kind.x, body.eye_wrap_far_m + place.rel_m, place.footprint_m); }
-        let density = densities[i] * max(1.0 + GROUPS * kind.y * stand, 0.0);
+        let material = u32(biome_param(id, row + 5).w + 0.5);
+        var stand = woods_here;
+        var density = densities[i];
+        if i == most {
+            let at_m = body.eye_wrap_far_m + place.rel_m;
+            stand += of_one_age(kind.x, at_m, place.footprint_m);
+            density *= max(1.0 + GROUPS * kind.y * groves(kind.x, at_m, place.footprint_m), 0.0);
+        }
         let areas = density * vec2f(color.w, shape.x);
         // As in src/life/scenery.rs.
         let drawn = saturate1((1.0 - place.distance_m / max(shape.w, 1e-3)) / (1.0 - FULL_SHARE));
         var rest = exp(-(1.0 - drawn) * (areas.x + areas.y * (*canopy).eye_tangent));
         var relief = vec2f(1.0);
-        var albedo = color.rgb;
+        var hue = 0.5;
         if i == most && drawn < 1.0 {
             let left = (1.0 - drawn) * density;
             let crowns = crowns_seen(kind.x, height_m, color.w, shape.x, left, place, body.suns[0].dir);
             rest = mix(rest, 1.0 - crowns.hit, crowns.clear);
-            relief = mix(vec2f(crown_grain(kind.x, place)), crowns.relief, crowns.clear) * (1.0 + STANDS * stand);
-            albedo = hue_of_one(color.rgb, mix(0.5, crowns.random, crowns.clear) + STAND_HUES * stand);
+            relief = mix(vec2f(crown_grain(kind.x, place)), crowns.relief, crowns.clear);
+            hue = mix(0.5, crowns.random, crowns.clear);
         }
+        var albedo = color.rgb;
+        // As in life.wgsl.
+        if material >= LEAFY { albedo = hue_of_one(albedo, hue + STAND_HUES * stand) * (1.0 + STANDS * stand); }
         (*canopy).layers[end] = CanopyLayer(
             albedo, share * open * (1.0 - rest), areas, kind.w, height_m, relief, vec2<i32>(id, row),
         );
@@ -147,7 +158,7 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         fallen += littered * vec4f(litter.rgb, 1.0);
         if littered > most_littered && share > 0.5 {
             most_littered = littered;
-            (*canopy).litter_kind = u32(biome_param(id, row + 5).w + 0.5);
+            (*canopy).litter_kind = material;
         }
         through += kind.w * areas.x * vec4f(biome_param(id, row + 8).rgb, 1.0);
     }
@@ -163,8 +174,9 @@ fn canopy_at(ids: vec2<i32>, shares: vec2f, place: CanopyPlace) -> Canopy {
     var out: Canopy;
     out.floor = 1.0;
     out.eye_tangent = ray_tangent(dot(place.n, place.v));
+    let here = woods(body.eye_wrap_far_m + place.rel_m, place.footprint_m);
     for (var i = 0; i < CANOPY_BIOMES; i++) {
-        if ids[i] >= 0 && shares[i] > 0.004 { add_canopy(&out, i, ids[i], shares[i], place); }
+        if ids[i] >= 0 && shares[i] > 0.004 { add_canopy(&out, i, ids[i], shares[i], place, here); }
     }
     return out;
 }

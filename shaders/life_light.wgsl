@@ -35,7 +35,9 @@ fn compute(@builtin(global_invocation_id) id: vec3u) {
     let place = unpack2x16unorm(instance.horizon.x);
     let tile = vec4f(select(f32(layer), -1.0, layer == 0xffffu), 1.0, 0.0, 0.0);
     let width_m = max(f32(instance.material >> 16u) * 0.01, 0.05);
-    let stand = stands(width_m, body.eye_wrap_far_m + instance.foot_rel_m, distance_km * 1000.0 * frame.pixel_rad);
+    let at_m = body.eye_wrap_far_m + instance.foot_rel_m;
+    let footprint_m = distance_km * 1000.0 * frame.pixel_rad;
+    let stand = woods(at_m, footprint_m) + of_one_age(width_m, at_m, footprint_m);
     var out = ObjectLight(vec3f(0.0), 1.0, vec3f(0.0), stand);
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun_at(i, body.eye_km + rel_km);

@@ -3,7 +3,6 @@
 // src/terrain/ground.rs; they have soft edges centred on the thresholds there. Layout of the texels:
 // src/render/biome_table.rs.
 #include "detail.wgsl"
-#include "macro_variation.wgsl"
 #include "border.wgsl"
 #include "material_pattern.wgsl"
 

@@ -3,6 +3,7 @@
 // src/render/material_maps.rs and src/render/biome_table.rs.
 #include "uniforms.wgsl"
 #include "luts.wgsl"
+#include "macro_variation.wgsl"
 
 // The ground under a pixel.
 struct Seen {
@@ -75,22 +76,17 @@ fn shown_axis(planes: vec3f, nth: u32) -> u32 {
     return select(select(2u, 1u, nth < xy), 0u, nth < x);
 }
 
-// Width of a tap at low quality, by the distance between taps. There each pixel stands for four of the others, so that
-// taps that close the gaps between them would smear the ground before the feet into stripes. What the gaps alias is a
-// part of one such pixel.
-const LOW_TAP_WIDTH: f32 = 0.6;
+// Width of a tap at low quality, by the distance between taps: each pixel stands for four of the others.
+const LOW_TAP_WIDTH: f32 = 0.4;
 // Level of detail from which it has one tap: there a pixel holds so much of the pattern that hardly more than its mean
 // is left, and a second tap is not worth its time.
 const LOW_TAPS_LOD: f32 = 5.5;
 
-// Number of taps along the longer side of a pixel's footprint: several taps stay sharper than one as wide as the
-// footprint is long. One is enough where pixels are hardly longer than wide, and where the whole pixel lies within a
-// texel.
+// Number of taps along the longer side of a pixel's footprint. One is enough where the whole pixel lies within a texel.
 fn taps_along(seen: Seen, texel_m: f32, most: u32) -> u32 {
     let x = length(seen.rel_x);
     let y = length(seen.rel_y);
-    let needed = max(x, y) / max(min(x, y), texel_m);
-    return min(most, select(select(select(8u, 4u, needed < 5.6), 2u, needed < 2.8), 1u, needed < 1.4));
+    return taps_for(max(x, y) / max(min(x, y), texel_m), most);
 }
 
 // Temperature of glowing ground relative to the mean (1): the crust varies in thickness. Without this, the glow, the
@@ -133,7 +129,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let is_low = frame.pattern_quality == 0.0;
     let most_steps = select(2u << u32(frame.pattern_quality), select(1u, 2u, lod < LOW_TAPS_LOD), is_low);
     let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, most_steps);
-    let tap_width = select(1.0, LOW_TAP_WIDTH, is_low) / f32(steps);
+    let tap_width = select(1.0, select(TAP_WIDTH, LOW_TAP_WIDTH, is_low), steps > 1u || is_low) / f32(steps);
     let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);
     let copies = axes * scales * steps;
     let taps = copies * select(1u, 2u, flows);

@@ -173,10 +173,10 @@ fn climate_at(in: Ground, height_m: f32) -> Climate {
 }
 
 // Tilts a normal by the small bumps of the macro variation.
-fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
+fn bumped(n: vec3f, rel_m: vec3f, slant: Slant) -> vec3f {
     let tangent = normalize(cross(n, select(vec3f(0.0, 0.0, 1.0), vec3f(1.0, 0.0, 0.0), abs(n.z) > 0.7)));
     let other = cross(n, tangent);
-    let rise = bumps_at(rel_m, footprint_m, array<vec3f, 2>(tangent, other));
+    let rise = bumps_at(rel_m, slant, array<vec3f, 2>(tangent, other));
     return normalize(n - rise.x * tangent - rise.y * other);
 }
 
@@ -429,7 +429,8 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
-    let variation = macro_variation(in.rel_m, footprint_m);
+    let slant = slant_of(rel_x, rel_y);
+    let variation = slanted_variation(in.rel_m, slant);
     let climate = climate_at(in, in.height_m);
     let location = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(location)) + abs(dpdy(location))) * vec2f(textureDimensions(biome_ids));
@@ -451,7 +452,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
         let albedo = canopy_albedo(canopy, ground.albedo);
         return Shaded(mix(albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);
     }
-    n = bumped(n, in.rel_m, footprint_m);
+    n = bumped(n, in.rel_m, slant);
     // Tilted ground has a larger area than the untilted ground below it. With the area included, bumps vary the light
     // but not its mean, so the ground is as bright from near as from far away, where bumps are too fine to be drawn.
     let tilt = ground.slope - n * dot(n, ground.slope);

@@ -46,6 +46,7 @@ mod rebuild;
 mod relief;
 mod rivers;
 mod saving;
+mod scenery;
 mod sculpt;
 mod solid;
 mod sphere;

@@ -147,7 +147,7 @@ fn graininess(gpu: &mut Gpu, quality: Quality) -> f64 {
 fn the_ground_before_the_feet_is_not_smeared() {
     let mut gpu = gpu();
     let [low, medium] = [Quality::Low, Quality::Medium].map(|quality| graininess(&mut gpu, quality));
-    assert!(low > 0.8 * medium && low < 1.6 * medium, "{low} at low, {medium} at medium quality");
+    assert!(low > 0.65 * medium && low < 1.6 * medium, "{low} at low, {medium} at medium quality");
 }
 
 /// Lava glows at night, and flowing lava moves.
