@@ -166,7 +166,7 @@ impl FormView {
             })
         };
         let floor = pipeline(["floor_vertex", "floor_fragment"], &[], true)?;
-        let shadow = pipeline(["shadow_vertex", "shadow_fragment"], &[vertices.clone()], false)?;
+        let shadow = pipeline(["shadow_vertex", "shadow_fragment"], std::slice::from_ref(&vertices), false)?;
         let form = pipeline(["vertex", "fragment"], &[vertices], false)?;
         Ok(Self { device: device.clone(), queue: queue.clone(), layout, floor, shadow, form })
     }
