@@ -68,19 +68,30 @@ fn between(x: f32, from_x: f32, to_x: f32, softness: f32) -> f32 {
     return saturate1(1.0 - max(from_x - x, x - to_x) / softness);
 }
 
-// Share of its density that a population has. `row`: its first row.
-fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 {
+// Share of its density that a population has. `row`: its first row. `suits`: 1 where its rules may put it, 0 where
+// strokes alone do.
+fn density_of(id: i32, row: i32, suits: f32, place: CanopyPlace) -> f32 {
     let shore_m = biome_param(id, row + 4).z;
     let on_land = select(1.0, saturate1(place.above_m - shore_m + 0.5), body.has_sea != 0u);
     if on_land <= 0.0 { return 0.0; }
     let ground = biome_param(id, row + 2);
     let climate = biome_param(id, row + 3);
-    let by_rule = between(place.slope_deg, ground.x, ground.y, SOFT_DEG)
+    let by_rule = suits * between(place.slope_deg, ground.x, ground.y, SOFT_DEG)
         * between(place.moisture, ground.z, ground.w, SOFT_MOISTURE)
         * between(place.above_m, climate.x, climate.y, SOFT_M)
         * between(place.temperature_c, climate.z, climate.w, SOFT_C);
     let by_hand = planting_at(u32(biome_param(id, row + 8).w), place.rel_m, place.footprint_m);
     return on_land * (by_hand.x * by_rule + by_hand.y);
+}
+
+// The same of a population of a biome.
+fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 { return density_of(id, row, 1.0, place); }
+
+// The same of the population whose density is shown. `wet`: share of the pixel that is under rivers and lakes.
+fn shown_density(biome: i32, place: CanopyPlace, wet: f32) -> f32 {
+    let in_water = biome_param(BIOME_SHOWN, CANOPY_ROW + 4).z < 0.0;
+    if biome_param(BIOME_SHOWN, SHOWN_ROW).x == 0.0 || (wet > 0.5 && !in_water) { return 0.0; }
+    return density_of(BIOME_SHOWN, CANOPY_ROW, biome_param(biome, SHOWN_ROW).x, place);
 }
 
 // Share of a pixel below which lower objects are left out.

@@ -10,6 +10,7 @@
 #include "sea.wgsl"
 #include "settlements.wgsl"
 #include "giant_tops.wgsl"
+#include "debug_colors.wgsl"
 
 struct Vertex {
     @location(0) high_m: vec3f,
@@ -210,44 +211,6 @@ fn seabed(ground: Material, site: Site) -> Material {
     return out;
 }
 
-fn ramp(x: f32) -> vec3f {
-    // Deep blue, teal, green, sand, brown, white.
-    let k = saturate1(x) * 5.0;
-    var c = mix(vec3f(0.01, 0.02, 0.12), vec3f(0.02, 0.22, 0.30), saturate1(k));
-    c = mix(c, vec3f(0.06, 0.28, 0.08), saturate1(k - 1.0));
-    c = mix(c, vec3f(0.52, 0.44, 0.20), saturate1(k - 2.0));
-    c = mix(c, vec3f(0.26, 0.13, 0.07), saturate1(k - 3.0));
-    return mix(c, vec3f(0.95), saturate1(k - 4.0));
-}
-
-fn level_color(level: f32) -> vec3f {
-    let hue = fract(level * 0.381966);
-    return 0.15 + 0.75 * saturate(abs(fract(hue + vec3f(0.0, 0.6667, 0.3333)) * 6.0 - 3.0) - 1.0);
-}
-
-// Cold to hot, white in the middle.
-fn temperature_color(x: f32) -> vec3f {
-    let k = saturate1(x) * 4.0;
-    var c = mix(vec3f(0.05, 0.03, 0.35), vec3f(0.10, 0.40, 0.80), saturate1(k));
-    c = mix(c, vec3f(0.85), saturate1(k - 1.0));
-    c = mix(c, vec3f(0.85, 0.40, 0.06), saturate1(k - 2.0));
-    return mix(c, vec3f(0.35, 0.01, 0.02), saturate1(k - 3.0));
-}
-
-// Sand, grass, deep water.
-fn moisture_color(x: f32) -> vec3f {
-    let c = mix(vec3f(0.75, 0.55, 0.25), vec3f(0.10, 0.45, 0.10), saturate1(x * 2.0));
-    return mix(c, vec3f(0.01, 0.08, 0.55), saturate1(x * 2.0 - 1.0));
-}
-
-// Blue, green, yellow, red: one step for each factor of four, starting at 1.
-fn spacing_color(pixels: f32) -> vec3f {
-    let k = log2(max(pixels, 1.0)) * 0.5;
-    var c = mix(vec3f(0.03, 0.08, 0.60), vec3f(0.05, 0.50, 0.10), saturate1(k));
-    c = mix(c, vec3f(0.80, 0.65, 0.05), saturate1(k - 1.0));
-    return mix(c, vec3f(0.65, 0.02, 0.02), saturate1(k - 2.0));
-}
-
 // Pixels between neighbouring vertices, for ground seen head-on from the eye that the LOD cut was chosen for.
 fn spacing_pixels(in: Ground) -> f32 {
     return spacing_m(in.level) / max(in.chosen_distance_m * body.chosen_pixel_rad, 1e-9);
@@ -260,9 +223,10 @@ fn border(in: Ground) -> f32 {
     return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
 }
 
-fn debug_color(in: Ground, pixel_ground: PixelGround, up: vec3f) -> vec3f {
+fn debug_color(in: Ground, pixel_ground: PixelGround, up: vec3f, footprint_m: f32) -> vec3f {
     let n = pixel_ground.normal;
-    let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
+    let v = normalize(-in.rel_m);
+    let lit = 0.35 + 0.65 * saturate1(dot(n, v));
     // Computed before the switch, in uniform control flow, as derivatives require.
     let edge = border(in);
     let climate = climate_at(in, in.height_m);
@@ -285,6 +249,14 @@ fn debug_color(in: Ground, pixel_ground: PixelGround, up: vec3f) -> vec3f {
         case VIEW_WIREFRAME: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
         case VIEW_PLATES, VIEW_RAIN, VIEW_RIVERS: {
             return textureSampleLevel(map_picture, clamped, up, 0.0).rgb * (0.4 + 0.6 * lit);
+        }
+        case VIEW_DENSITY: {
+            let site = site_of(in, pixel_ground, up, climate.temperature_c, location, 1.0, 0.0);
+            let place = canopy_place(in, climate, n, up, v, length(in.rel_m), footprint_m);
+            let density = shown_density(biome_of(site), place, pixel_ground.water.x);
+            // The sea is dark, so that land is known.
+            if density <= 0.0 && site.over_sea_m < 0.0 { return UNDER_SEA * lit; }
+            return density_color(density) * mix(1.0, lit, 0.5);
         }
         case VIEW_ERROR: { return spacing_color(spacing_pixels(in)) * lit; }
         default: { return vec3f(1.0); }
@@ -413,8 +385,8 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     let rel_y = pixel_step(on_mesh.rel_m, mesh_normal, body.pixel_up);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
     let at = vec3f(on_mesh.place.zw * (DETAIL_SIDE - 1.0), on_mesh.height_m);
-    // The biome view shows exact biomes with hard edges, whatever the footprint.
-    let exact = frame.debug_view == VIEW_BIOME;
+    // Biomes and densities are shown exactly, with hard edges, whatever the footprint.
+    let exact = frame.debug_view == VIEW_BIOME || frame.debug_view == VIEW_DENSITY;
     let share = select(1.0, 0.0, exact);
     let step = Step(share * dpdx(at), share * dpdy(at));
     let pixel_ground = pixel_ground_of(on_mesh, up, select(footprint_m, 1e-6, exact), step, select(2.0, 1.0, exact));
@@ -424,7 +396,8 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     let sea_level_m = body.sea_level_km * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
     if frame.debug_view != VIEW_SHADED && frame.debug_view != VIEW_ALBEDO {
-        return Shaded(debug_color(in, pixel_ground, up), over_sea_m, pixel_ground.spread_m);
+        let width_m = sqrt(length(rel_x) * length(rel_y));
+        return Shaded(debug_color(in, pixel_ground, up, width_m), over_sea_m, pixel_ground.spread_m);
     }
 
     let distance_m = length(in.rel_m);

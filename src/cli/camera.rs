@@ -68,6 +68,9 @@ pub(super) struct CameraArgs {
     /// The shaded planet, or a debug view
     #[arg(long, value_enum, default_value_t = DebugView::default())]
     pub(super) view: DebugView,
+    /// The population whose density --view density shows [default: the first]
+    #[arg(long, value_name = "NAME")]
+    pub(super) population: Option<String>,
 }
 
 impl CameraArgs {
@@ -104,6 +107,7 @@ impl CameraArgs {
             time_secs,
             sun: None,
             debug_view: self.view,
+            population: self.population_of(terrain.planet()).unwrap_or(0),
             post: self.post(),
             photo: self.photo(),
             system: None,
@@ -126,7 +130,26 @@ impl CameraArgs {
                 format!("{file}: the planet has no structure, so that there is no map of {view} to show").into()
             );
         }
+        if self.population.is_some() && self.view != DebugView::Density {
+            let told = "--population: this view shows no population; use it with --view density";
+            return Err(told.to_owned().into());
+        }
+        if self.view == DebugView::Density && self.population_of(planet).is_none() {
+            let file = file.display();
+            if planet.life.is_empty() {
+                return Err(format!("{file}: nothing stands on the planet, so that there is no density to show").into());
+            }
+            let names: Vec<&str> = planet.life.iter().map(|population| population.name.as_str()).collect();
+            let asked = self.population.as_deref().unwrap_or_default();
+            return Err(format!("{file}: there is no population `{asked}`; use one of {}", names.join(", ")).into());
+        }
         Ok(())
+    }
+
+    /// Index of the population whose density is shown.
+    fn population_of(&self, planet: &Planet) -> Option<usize> {
+        let is_asked = |name: &str| self.population.as_ref().is_none_or(|asked| asked == name);
+        planet.life.iter().position(|population| is_asked(&population.name))
     }
 }
 
@@ -178,6 +201,7 @@ impl ValueEnum for DebugView {
             DebugView::Plates => "plates",
             DebugView::Rain => "rain",
             DebugView::Rivers => "rivers",
+            DebugView::Density => "density",
         }))
     }
 }

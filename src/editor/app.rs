@@ -128,7 +128,7 @@ impl EditorApp {
         Self {
             state,
             commands: Commands::default(),
-            panels: PanelState::new(layout),
+            panels: PanelState::new(layout, cc.wgpu_render_state.as_ref()),
             prompts: Prompts::default(),
             finder: FinderWindow::with_used(&stored(USED_KEY).unwrap_or_default()),
             history: HistoryWindow::default(),
@@ -313,7 +313,7 @@ impl EditorApp {
             problems: &problems,
             locks: &locks,
             curves: &curves,
-            under_pointer: state.viewport.under_pointer(),
+            viewport: &state.viewport,
             survey: self.survey.found(),
             commands: &mut self.commands,
             eye_lon_deg: eye.to_degrees().1,
@@ -323,7 +323,7 @@ impl EditorApp {
             planet: &mut planet,
         };
         panels.show_docks(ui, &mut bench);
-        let label = bench.label;
+        let (label, population) = (bench.label, panels.population());
         // Not while a point of a curve is dragged: the picture comes first.
         if curves.is_shown()
             && !ui.input(|input| input.pointer.any_down())
@@ -332,6 +332,7 @@ impl EditorApp {
             self.curve_inputs.ask(&surface.terrain);
         }
         self.commands.extend(locks.take_toggled().map(Action::ToggleLock));
+        self.state.viewport.settings.population = population;
         self.state.edit(planet, label);
     }
 

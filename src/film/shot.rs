@@ -32,6 +32,8 @@ pub struct Shot {
     pub sun: Option<LatLon>,
     /// The planet, or a debug view.
     pub debug_view: DebugView,
+    /// Index of the population that [`DebugView::Density`] shows.
+    pub population: usize,
     /// Exposure, white balance, tone curve.
     pub post: Post,
     /// Samples, lens, and kind of the pixels.
@@ -70,7 +72,7 @@ impl Shot {
             body.frozen = (ground_view.size_px != self.view.size_px).then_some(ground_view);
         }
         scene.time_secs = self.time_secs;
-        scene.debug_view = self.debug_view;
+        (scene.debug_view, scene.population) = (self.debug_view, self.population);
         scene.post = self.post;
         let mut photo = self.photo;
         if let (true, Some(lens)) = (self.focuses, &mut photo.lens) {
@@ -94,8 +96,8 @@ impl Shot {
 
     /// Everything else that the picture depends on.
     pub(super) fn own(&self) -> impl std::fmt::Debug + use<> {
-        let Self { view, time_secs, sun, debug_view, post, photo, focuses, ground_secs, ground_bytes, .. } = *self;
-        (view, time_secs, sun, debug_view, post, photo, (focuses, ground_secs, ground_bytes))
+        let Self { view, time_secs, sun, post, photo, focuses, ground_secs, ground_bytes, .. } = *self;
+        (view, time_secs, sun, (self.debug_view, self.population), post, photo, (focuses, ground_secs, ground_bytes))
     }
 
     /// The ground for a view, in the time and the memory that there are.

@@ -8,6 +8,7 @@
 //! - `planting_map`: what edits make of populations, for what is seen from afar; `lie_shares`: what water, ridges and
 //!   hollows make of them
 //! - `canopy`: what populations cover of the ground
+//! - `census`: how many objects stand on a whole planet
 //! - [`query`]: objects of a terrain, for games and exports; `nearest`: the nearest one
 //! - `solid`: what bodies hit of objects, and what moves among them
 //! - [`scenery`]: the objects that a view draws, kept from one view to the next
@@ -18,6 +19,7 @@
 //! ground that queries answer.
 
 pub(crate) mod canopy;
+mod census;
 pub mod form;
 mod grid;
 mod hash;

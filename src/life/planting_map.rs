@@ -23,8 +23,6 @@ const TEXEL_OF_HEIGHT: f64 = 1.0 / 40.0;
 const LEAST_TEXEL_M: f64 = 1.0;
 /// Least step of the middle, in texels of the finest square.
 const STEP_TEXELS: f64 = 16.0;
-/// Most populations with a channel of their own. Others have that of strokes which paint all populations.
-const MOST_NAMED: usize = 7;
 /// Texels along a side of a block. A block is evaluated where edits touch it, and again when one of these changes.
 const BLOCK: usize = 16;
 /// Places along a side of a texel whose mean it is.
@@ -42,9 +40,8 @@ pub(crate) struct PlantingMap {
     pub(crate) texel_m: f64,
     /// Number of squares.
     pub(crate) levels: u32,
-    /// For each population of the planet, its channel, and whether strokes may plant it where no rule puts it. None for
-    /// one that asks for water, ridges or hollows and has no channel left.
-    pub(crate) populations: Vec<Option<(u32, bool)>>,
+    /// For each population of the planet, its channel, and whether strokes may plant it where no rule puts it.
+    pub(crate) populations: Vec<(u32, bool)>,
     /// What is kept of a share and what is added, 16 bits each: channel by channel, square by square, row by row.
     pub(crate) texels: Vec<u32>,
     /// Keys of the edits that touch each block, in the order of channels, squares and rows.
@@ -87,9 +84,8 @@ struct Ground<'a> {
     edits: Option<&'a Arc<Edits>>,
     /// Names of the populations.
     names: Vec<PopulationId>,
-    /// The populations that ask for water, ridges or hollows and have a channel, and all that ask.
+    /// The populations that ask for water, ridges or hollows.
     asking: Vec<usize>,
-    asking_all: Vec<usize>,
     lies: &'a LieShares,
     /// Content key of the ground and of what these populations ask; None without any.
     lie: Option<Key>,
@@ -114,10 +110,10 @@ impl PlantingMaps {
         let planet = terrain.planet();
         let edits = terrain.life_edits().filter(|edits| edits.plants_by_share());
         let is_on = |index: &usize| planet.life[*index].enabled;
-        let asking_all: Vec<usize> =
+        let asking: Vec<usize> =
             (0..planet.life.len()).filter(|index| is_on(index) && planet.life[*index].asks_lie()).collect();
         let is_bare = (0..planet.life.len()).all(|index| !is_on(&index));
-        if is_bare || edits.is_none() && asking_all.is_empty() {
+        if is_bare || edits.is_none() && asking.is_empty() {
             return (None, true);
         }
         let (dir, radius_m) = (eye_m.normalize_or(DVec3::Z), planet.radius_m());
@@ -127,12 +123,11 @@ impl PlantingMaps {
         let level = (FRAC_PI_2 * radius_m / (STEP_TEXELS * texel_m)).log2();
         let node = NodeId::containing(dir, level.clamp(0.0, f64::from(NodeId::MAX_LEVEL)) as u8);
         let names: Vec<&str> = planet.life.iter().map(|population| population.name.as_str()).collect();
-        let asking: Vec<usize> = asking_all.iter().copied().take(MOST_NAMED).collect();
         let asks: Vec<Suitability> =
             asking.iter().map(|index| Suitability::new(planet, &planet.life[*index])).collect();
         let lie = (!asks.is_empty()).then(|| {
             let rules: Vec<_> = asks.iter().map(|one| one.population.placed()).collect();
-            Key::of(&(&asking_all, rules, NodeId::roots().map(|root| terrain.tile_keys_at(root))))
+            Key::of(&(&asking, rules, NodeId::roots().map(|root| terrain.tile_keys_at(root))))
         });
         let edits_key = edits.map(|edits| edits.life_key());
         let key = Key::of(&(edits_key, lie, names, radius_m.to_bits(), texel_m.to_bits(), node));
@@ -147,7 +142,7 @@ impl PlantingMaps {
             return (self.maps.first().filter(|map| map.populations.len() == planet.life.len()).cloned(), false);
         }
         let names: Vec<_> = planet.life.iter().map(|population| PopulationId::of(&population.name)).collect();
-        let ground = Ground { edits, names, asking, asking_all, lies: &self.lies, lie };
+        let ground = Ground { edits, names, asking, lies: &self.lies, lie };
         let made = PlantingMap::new(&ground, &site, key, &self.maps);
         self.maps.truncate(MOST_KEPT - 1);
         self.maps.insert(0, Arc::new(made));
@@ -270,24 +265,21 @@ impl Ground<'_> {
             self.asking.iter().enumerate().map(|(lie, at)| Channel { name: Some(self.names[*at]), lie: Some(lie) }),
         );
         let strokes = self.strokes();
-        for (index, name) in self.names.iter().enumerate().filter(|(index, _)| !self.asking_all.contains(index)) {
+        for (index, name) in self.names.iter().enumerate().filter(|(index, _)| !self.asking.contains(index)) {
             let own = Channel { name: Some(*name), lie: None };
             let is_painted = strokes.iter().any(|(of, _)| *of == Some(self.names[index]));
-            if is_painted && !channels.contains(&own) && channels.len() <= MOST_NAMED {
+            if is_painted && !channels.contains(&own) {
                 channels.push(own);
             }
         }
         channels
     }
 
-    /// The channel of a population, by its index; None if it needs one and has none.
-    fn channel_of(&self, index: usize, channels: &[Channel]) -> Option<usize> {
+    /// The channel of a population, by its index: its own, or that of strokes which paint all.
+    fn channel_of(&self, index: usize, channels: &[Channel]) -> usize {
         let lie = self.asking.iter().position(|at| *at == index);
-        if lie.is_none() && self.asking_all.contains(&index) {
-            return None;
-        }
         let own = Channel { name: Some(self.names[index]), lie };
-        Some(channels.iter().position(|channel| *channel == own).unwrap_or(0))
+        channels.iter().position(|channel| *channel == own).unwrap_or(0)
     }
 
     /// The key of a block of a channel; None if all of it is as without edits.
@@ -331,9 +323,8 @@ impl PlantingMap {
                 }
             }
         }
-        let of_population = |(index, name): (usize, &PopulationId)| {
-            Some((ground.channel_of(index, &channels)? as u32, is_planted(*name)))
-        };
+        let of_population =
+            |(index, name): (usize, &PopulationId)| (ground.channel_of(index, &channels) as u32, is_planted(*name));
         Self {
             east: site.east,
             north: site.north,
@@ -396,7 +387,7 @@ mod tests {
         for above_m in [2.0, 900.0, 30_000.0, 5e6] {
             let mut maps = PlantingMaps::default();
             let map = maps.around(&terrain, eye * (radius_m + above_m), &|| true).0.unwrap();
-            assert_eq!(map.populations, [Some((0, true)), Some((1, true))]);
+            assert_eq!(map.populations, [(0, true), (1, true)]);
             assert_eq!(map.texels.len(), 2 * map.levels as usize * SIDE * SIDE);
             // A stroke more: other blocks stay.
             let more = self::terrain(&[("", 0.0, 1.0), ("Palm", 0.5, 300.0), ("", 0.25, 0.2), ("Oak", 1.0, 0.1)]);
@@ -448,8 +439,8 @@ mod tests {
             assert!(none.is_none() && !is_whole, "it was stopped");
             let ground_m = terrain.height_m(eye).max(0.0);
             let map = maps.around(&terrain, eye * (radius_m + ground_m + above_m), &|| true).0.unwrap();
-            let channels = [1, 2].map(|population: usize| map.populations[population].unwrap().0);
-            assert_eq!((map.populations[0], channels), (Some((0, false)), [1, 2]));
+            let channels = [1, 2].map(|population: usize| map.populations[population].0);
+            assert_eq!((map.populations[0], channels), ((0, false), [1, 2]));
             let side = 40;
             let places =
                 (0..side * side).map(|i| [i % side, i / side].map(|at| 2.4 * (f64::from(at) + 0.5) / 40.0 - 1.2));

@@ -88,6 +88,22 @@ pub struct Scenery {
     pub(crate) planting: Option<Arc<PlantingMap>>,
 }
 
+impl Scenery {
+    /// Whether two have the same objects, meshes and planting map: those that are kept from one view to the next.
+    pub fn is_same(&self, other: &Self) -> bool {
+        fn same<T>(a: &[Arc<T>], b: &[Arc<T>]) -> bool {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| Arc::ptr_eq(a, b))
+        }
+        let models = |of: &Self| of.models.iter().map(|model| model.as_ref().map(Arc::as_ptr)).collect::<Vec<_>>();
+        let is_same = same(&self.cells, &other.cells) && models(self) == models(other);
+        #[cfg(feature = "render")]
+        let is_same = is_same
+            && self.planting.as_ref().map(Arc::as_ptr) == other.planting.as_ref().map(Arc::as_ptr)
+            && self.covers.iter().map(Option::is_some).eq(other.covers.iter().map(Option::is_some));
+        is_same && self.reach_m == other.reach_m
+    }
+}
+
 /// Share of its reach up to which all objects of a population are drawn.
 pub const FULL_SHARE: f64 = 0.5;
 

@@ -6,15 +6,19 @@ use super::{gpu, material_kinds};
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
 use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 
-/// Columns of the parameters: the palette, then the rock that biomes share, then the surface rules.
+/// Columns of the parameters: the palette, then the rock that biomes share, the surface rules, and the population whose
+/// density is shown.
 pub(crate) const ROCK: usize = MAX_BIOMES;
 pub(crate) const RULES: usize = MAX_BIOMES + 1;
-const COLUMNS: usize = MAX_BIOMES + 2;
+pub(crate) const SHOWN: usize = MAX_BIOMES + 2;
+const COLUMNS: usize = MAX_BIOMES + 3;
 /// Rows of a column without its canopy, four numbers each.
 const ROWS: usize = 6;
 /// First row of the canopy.
 pub(crate) const CANOPY: usize = ROWS;
-const ALL_ROWS: usize = ROWS + CANOPY_ROWS;
+/// Row that says of a biome whether the shown population stands there, and in its own column whether it is known.
+pub(crate) const SHOWN_ROW: usize = ROWS + CANOPY_ROWS;
+const ALL_ROWS: usize = SHOWN_ROW + 1;
 
 /// Lengths in metres by which positions are wrapped before they reach the shaders. Periods of repeating patterns divide
 /// them.
@@ -87,6 +91,13 @@ impl BiomeTexels {
             for (row, numbers) in rows.into_iter().enumerate() {
                 params[(CANOPY + row) * COLUMNS + column] = numbers;
             }
+            params[SHOWN_ROW * COLUMNS + column][0] = f32::from(canopies.shows_in(biome.key));
+        }
+        if let Some(rows) = canopies.shown() {
+            for (row, numbers) in rows.iter().enumerate() {
+                params[(CANOPY + row) * COLUMNS + SHOWN] = *numbers;
+            }
+            params[SHOWN_ROW * COLUMNS + SHOWN][0] = 1.0;
         }
         Self { size_px: [columns as u32, rows as u32], ids: cells.map(id).collect(), params }
     }

@@ -1,6 +1,9 @@
-//! What the colours of a debug view mean. The colours are those of `terrain.wgsl`; a test compares the two.
+//! What the colours of a debug view mean. The colours are those of `debug_colors.wgsl`; a test compares the two.
 
-use super::scene::{DebugView, height_range_m};
+use super::debug_view::DebugView;
+use super::scene::height_range_m;
+use crate::planet::Population;
+use crate::planet::printable::number_text;
 use crate::tiles::Surface;
 use crate::world::RAIN_COLORS;
 
@@ -35,8 +38,25 @@ const TEMPERATURE: [Color; 5] =
 const MOISTURE: [Color; 3] = [[0.75, 0.55, 0.25], [0.10, 0.45, 0.10], [0.01, 0.08, 0.55]];
 const SPACING: [Color; 4] = [[0.03, 0.08, 0.60], [0.05, 0.50, 0.10], [0.80, 0.65, 0.05], [0.65, 0.02, 0.02]];
 
+/// Dark violet, blue, teal, green, yellow.
+const DENSITY: [Color; 6] = [
+    [0.058, 0.001, 0.089],
+    [0.053, 0.058, 0.242],
+    [0.023, 0.188, 0.270],
+    [0.016, 0.392, 0.231],
+    [0.195, 0.638, 0.082],
+    [0.982, 0.799, 0.019],
+];
+
 impl Legend {
-    /// The legend of a debug view of a surface; None where the colours have no values.
+    /// The legend of the density of a population: from none to the most on a hectare.
+    pub fn of_density(population: &Population) -> Self {
+        let most = number_text(population.per_hectare);
+        Self::Ramp { colors: DENSITY.to_vec(), ends: ["none".to_owned(), format!("{most} on a hectare")] }
+    }
+
+    /// The legend of a debug view of a surface; None where the colours have no values. That of a density is
+    /// [`Legend::of_density`].
     pub fn of(view: DebugView, surface: &Surface) -> Option<Self> {
         let ramp = |colors: &[Color], ends: [String; 2]| Some(Self::Ramp { colors: colors.to_vec(), ends });
         match view {
@@ -84,7 +104,7 @@ mod tests {
 
     /// The colours `vec3f(..)` in a function of the shader, in order.
     fn colors(function: &str) -> Vec<Color> {
-        let text = include_str!("../../shaders/terrain.wgsl");
+        let text = include_str!("../../shaders/debug_colors.wgsl");
         let begin = text.find(&format!("fn {function}(")).unwrap();
         let body = &text[begin..begin + text[begin..].find("\n}\n").unwrap()];
         let literals = body.split("vec3f(").skip(1).map(|rest| rest.split(')').next().unwrap_or_default());
@@ -103,6 +123,7 @@ mod tests {
         assert_eq!(colors("temperature_color"), TEMPERATURE);
         assert_eq!(colors("moisture_color"), MOISTURE);
         assert_eq!(colors("spacing_color"), SPACING);
+        assert_eq!(colors("density_color"), DENSITY);
         assert!(level_color(0).iter().zip([0.9, 0.15, 0.15]).all(|(a, b): (&f64, f64)| (a - b).abs() < 1e-3));
     }
 }

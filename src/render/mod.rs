@@ -4,7 +4,8 @@
 //! of its own to draw uses the stages instead: [`Renderer::prepare`], then of [`PreparedFrame`] `draw_opaque`, its own
 //! draw calls into the same targets, `draw_air`, and `draw_post` or a post-process of its own.
 //!
-//! - `scene`: what is drawn. `renderer`: resources and preparation. `prepared`: the stages. `error`: what can go wrong
+//! - `scene`: what is drawn; `debug_view`: or in its place. `renderer`: resources and preparation. `prepared`: the
+//!   stages. `error`: what can go wrong
 //! - `passes`: the list of all passes; `screen_pass`: a pass over all pixels; `targets`: the textures between them
 //! - `variant`: pipelines leave out what a body does not need; `nearness`: what no pixel resolves from afar
 //! - opaque stage: `morph` (compute), `terrain` with `ground_view`, `body_tiles`, `pool`, `layer_pool`, `detail_pool`,
@@ -36,6 +37,7 @@ mod caster;
 mod cloud_map;
 mod clouds;
 mod copy;
+mod debug_view;
 mod detail_pool;
 mod display;
 mod error;
@@ -82,17 +84,17 @@ pub use biome_table::MarkedCells;
 pub use caster::{ShadowCaster, ShadowView};
 #[cfg(feature = "cli")]
 pub(crate) use cloud_map::cloud_keyframe;
+pub use debug_view::DebugView;
 pub use error::RenderError;
 pub use exposure::{Metered, Metering};
 pub use gpu::{read_texture, texture};
 pub use legend::{Color, Legend};
+pub use life::{FormCamera, FormMesh, FormTarget, FormView};
 pub use luts::LutRuns;
 pub use photo::{Develop, Lens, Photo};
 pub use prepared::{OpaqueTargets, PreparedFrame};
 pub use renderer::Renderer;
-pub use scene::{
-    Body, BodyId, DebugView, Matrices, Point, Post, Projection, Reuse, Scene, Sun, ViewId, split_position,
-};
+pub use scene::{Body, BodyId, Matrices, Point, Post, Projection, Reuse, Scene, Sun, ViewId, split_position};
 pub use shaders::{air_wgsl, caster_wgsl};
 pub use shared::{MAX_POINTS, MAX_SUNS};
 pub use sky_probe::SkyAnswer;

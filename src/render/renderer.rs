@@ -2,13 +2,14 @@
 
 use super::bloom::Bloom;
 use super::body_tiles::BodyTiles;
+use super::debug_view::DebugView;
 use super::ground_view::GroundView;
 use super::history::{CloudFrame, CloudHistory, Progress, Still};
 use super::life::{CanopyRows, Cascades, LifeModels, LifeView, PlantingBuffer, ShadowMap};
 use super::luts::{LutRuns, Luts, Patterns};
 use super::passes::Pipelines;
 use super::prepared::{Plan, PlannedBody, PreparedFrame};
-use super::scene::{Body, BodyId, DebugView, Reuse, Scene, ViewId};
+use super::scene::{Body, BodyId, Reuse, Scene, ViewId};
 use super::screen_pass::{Shared, Work};
 use super::shared::MAX_SUNS;
 use super::targets::{self, Owned, Target, Targets};
@@ -326,7 +327,7 @@ impl Renderer {
                 (&*self.patterns, &self.pipelines.luts),
                 (&body_view.group, values.lut_sun_radius_rad),
                 (&body.revision, scene.drafts),
-                (body.marked.as_ref(), CanopyRows::new(body)),
+                (body.marked.as_ref(), CanopyRows::new(body, scene.shown_population())),
             );
             let life = &mut body_view.life;
             if matches!(scene.debug_view, DebugView::Shaded | DebugView::Albedo) {

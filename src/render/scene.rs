@@ -5,6 +5,7 @@
 
 use super::biome_table::MarkedCells;
 use super::caster::ShadowCaster;
+use super::debug_view::DebugView;
 use super::exposure::Metering;
 use super::tone::Tone;
 use crate::life::HiddenObjects;
@@ -13,7 +14,6 @@ use crate::planet::{Planet, Star};
 use crate::system::light::StarInSky;
 use crate::terrain::Revision;
 use crate::tiles::Surface;
-use crate::world::MapView;
 use glam::{DQuat, DVec3, Mat4};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -277,6 +277,8 @@ pub struct Scene<'a> {
     pub time_secs: f64,
     /// The planets, or a debug view.
     pub debug_view: DebugView,
+    /// Index of the population that [`DebugView::Density`] shows, in [`Planet::life`].
+    pub population: usize,
     /// Whether cloud maps and the LUTs of the air may be drafts: while a slider is dragged, an answer at once is worth
     /// more.
     pub drafts: bool,
@@ -302,6 +304,7 @@ impl<'a> Scene<'a> {
             bodies: Vec::new(),
             time_secs: 0.0,
             debug_view: DebugView::Shaded,
+            population: 0,
             drafts: false,
             whole: None,
             reuse: Reuse::None,
@@ -322,6 +325,11 @@ impl<'a> Scene<'a> {
         let body = Body::new(BodyId::default(), surface, -view.camera.position_planet_m);
         scene.bodies.push(Body { revision, ..body });
         scene
+    }
+
+    /// The population whose density is shown.
+    pub(crate) fn shown_population(&self) -> Option<usize> {
+        (self.debug_view == DebugView::Density).then_some(self.population)
     }
 
     /// The lights of a body.
@@ -393,101 +401,4 @@ pub struct Matrices {
 pub fn split_position(position_m: DVec3) -> [glam::Vec3; 2] {
     let high = position_m.as_vec3();
     [high, (position_m - high.as_dvec3()).as_vec3()]
-}
-
-/// What is drawn of the surface.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum DebugView {
-    /// The planet.
-    #[default]
-    Shaded,
-    /// Height, from the lowest to the highest of the surface.
-    Height,
-    /// The normal in the planet frame as a colour.
-    Normal,
-    /// Angle against the horizontal, 0 to 60°.
-    Slope,
-    /// The biome's colour by itself.
-    Biome,
-    /// Temperature, -40 to 40 °C.
-    Temperature,
-    /// Moisture, dry to wet.
-    Moisture,
-    /// The tile's level in the quadtree.
-    Lod,
-    /// Lines where tiles meet.
-    TileBorders,
-    /// The edges of the triangles.
-    Wireframe,
-    /// Vertex spacing in pixels of the picture, as the level of detail sees it: blue 1, green 4, yellow 16, red 64.
-    Error,
-    /// White where there is ground, black elsewhere.
-    Coverage,
-    /// The ground's albedo with its patterns, without light.
-    Albedo,
-    /// The plates of a structure, with darts along their motion.
-    Plates,
-    /// The rain of a structure, with darts along the wind.
-    Rain,
-    /// The basins, rivers and lakes of a structure.
-    Rivers,
-}
-
-impl DebugView {
-    /// All of them.
-    pub const ALL: [DebugView; 16] = [
-        DebugView::Shaded,
-        DebugView::Height,
-        DebugView::Normal,
-        DebugView::Slope,
-        DebugView::Biome,
-        DebugView::Temperature,
-        DebugView::Moisture,
-        DebugView::Lod,
-        DebugView::TileBorders,
-        DebugView::Wireframe,
-        DebugView::Error,
-        DebugView::Coverage,
-        DebugView::Albedo,
-        DebugView::Plates,
-        DebugView::Rain,
-        DebugView::Rivers,
-    ];
-
-    /// The map of the structure that it shows, if it shows one.
-    pub(crate) fn map(self) -> Option<MapView> {
-        match self {
-            DebugView::Plates => Some(MapView::Plates),
-            DebugView::Rain => Some(MapView::Rain),
-            DebugView::Rivers => Some(MapView::Rivers),
-            _ => None,
-        }
-    }
-
-    /// Whether it shows a map of the structure: of a planet without one it is an even grey.
-    pub fn needs_structure(self) -> bool {
-        self.map().is_some()
-    }
-
-    /// The name that the editor shows.
-    pub fn label(self) -> &'static str {
-        match self {
-            DebugView::Shaded => "Shaded",
-            DebugView::Height => "Height",
-            DebugView::Normal => "Normal",
-            DebugView::Slope => "Slope",
-            DebugView::Biome => "Biome",
-            DebugView::Temperature => "Temperature",
-            DebugView::Moisture => "Moisture",
-            DebugView::Lod => "Level",
-            DebugView::TileBorders => "Tile borders",
-            DebugView::Error => "Error",
-            DebugView::Wireframe => "Wireframe",
-            DebugView::Coverage => "Coverage",
-            DebugView::Albedo => "Albedo",
-            DebugView::Plates => "Plates",
-            DebugView::Rain => "Rain",
-            DebugView::Rivers => "Rivers",
-        }
-    }
 }

@@ -3,7 +3,8 @@
 //! A view owns those between the stages; the caller lends the others. All are as large as the caller's targets, so that
 //! a pixel has the same coordinates in each of them.
 
-use super::scene::{DebugView, Scene};
+use super::debug_view::DebugView;
+use super::scene::Scene;
 use super::{RenderError, gpu};
 use crate::lod::Quality;
 use std::collections::HashMap;

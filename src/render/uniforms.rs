@@ -10,6 +10,7 @@ mod neighbours;
 mod rings;
 mod water;
 
+use super::debug_view::DebugView;
 use super::scene::{self, Matrices, Scene, height_range_m, split_position};
 pub(crate) use super::shared::{Body, Frame};
 use super::shared::{MAX_POINTS, MAX_SUNS, MIXTURE_ENTRIES, Octave, Point, Sun};
@@ -61,7 +62,7 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
         render_scale: drawn.render_scale,
         time_secs: scene.time_secs as f32,
         exposure: scene.post.exposure_ev.exp2() as f32,
-        debug_view: scene::DebugView::ALL.iter().position(|&view| view == scene.debug_view).unwrap_or(0) as u32,
+        debug_view: DebugView::ALL.iter().position(|&view| view == scene.debug_view).unwrap_or(0) as u32,
         tone: scene.post.tone as u32,
         white: white.as_vec3(),
         vignette: scene.post.vignette.clamp(0.0, 1.0) as f32,

@@ -376,6 +376,13 @@ fn a_map_of_a_structure_is_refused_where_there_is_none() {
     let picture = folder.path().join("plates.png");
     let (status, _, err) = run(&["render", LAYERED, "-o", text_of(&picture), "--view", "plates"]);
     assert!(status == 1 && err.contains("no structure") && err.contains("Plates"), "{err}");
+    let (status, _, err) = run(&["render", LAYERED, "-o", text_of(&picture), "--view", "density"]);
+    assert!(status == 1 && err.contains("nothing stands on the planet"), "{err}");
+    let density = ["render", AUREL, "-o", text_of(&picture), "--view", "density", "--population", "Oaks"];
+    let (status, _, err) = run(&density);
+    assert!(status == 1 && err.contains("there is no population `Oaks`; use one of Rain forest trees,"), "{err}");
+    let (status, _, err) = run(&["render", AUREL, "-o", text_of(&picture), "--population", "Reeds"]);
+    assert!(status == 1 && err.contains("use it with --view density"), "{err}");
     assert!(!picture.exists());
 }
 

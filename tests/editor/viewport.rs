@@ -268,6 +268,8 @@ fn every_view_with_values_has_a_legend() {
         DebugView::Albedo,
         DebugView::Plates,
         DebugView::Rivers,
+        // That of a density tells of a population.
+        DebugView::Density,
     ];
     assert_eq!(without, known);
 }

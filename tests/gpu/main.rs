@@ -9,7 +9,8 @@
 //! - `cloud_edges`: clouds near the horizon: stairs and stripes
 //! - `cloud_light`: light under clouds: rain, fog, night
 //! - `lakes`: water of planets with a structure
-//! - `life`: objects on the ground and their shadows; `planting`: what strokes clear and plant of them, from afar
+//! - `life`: objects on the ground and their shadows; `planting`: what strokes clear and plant of them, from afar;
+//!   `density`: how many stand where, as a picture; `forms`: pictures of single forms
 //! - `neighbours`: shadows and light between bodies, rings
 //! - `night`: airglow, aurora, lights of settlements
 //! - `history`: clouds carried over while the camera moves, and still pictures that converge
@@ -30,7 +31,9 @@ mod cloud_edges;
 mod cloud_light;
 mod clouds;
 mod colours;
+mod density;
 mod edges;
+mod forms;
 mod history;
 mod lakes;
 mod life;

@@ -40,11 +40,15 @@ fn debug_view(view: DebugView) -> Row {
         DebugView::Plates => ("Show the plates of the structure. Darts point along their motion.", None),
         DebugView::Rain => ("Show the rain of the structure. Darts point along the wind.", None),
         DebugView::Rivers => ("Show the basins, rivers and lakes of the structure.", None),
+        DebugView::Density => ("Show how many objects of the population selected in the Life tab stand where.", None),
     };
     Row::new(Command::Show(view), view.label(), tooltip, move |state, _| state.viewport.settings.debug_view = view)
         .within(Menu::View, 0)
         .keys(key.map(plain).into_iter().collect::<Vec<_>>())
         .chosen_when(move |state| state.viewport.settings.debug_view == view)
-        .enabled_when(move |state| !view.needs_structure() || state.document.valid_planet().structure.is_some())
+        .enabled_when(move |state| match view {
+            DebugView::Density => state.shown_population().is_some(),
+            _ => !view.needs_structure() || state.document.valid_planet().structure.is_some(),
+        })
         .yielding_to_text()
 }

@@ -70,6 +70,7 @@ fn sequence(state: &State, subject: Subject, path: &Path) -> Result<Sequence, St
         time_secs: settings.time_secs,
         sun: None,
         debug_view: settings.debug_view,
+        population: settings.population,
         post: Post {
             metering: if settings.auto_exposure { Metering::Instant } else { Metering::Manual },
             ..settings.post

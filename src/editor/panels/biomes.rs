@@ -72,7 +72,7 @@ impl BiomesState {
                 planet.biomes.table.set_key(column, row, key);
                 Some("Paint climate of location".to_owned())
             }
-            Click::Plate => None,
+            Click::Plate | Click::Plant(_) => None,
         }
     }
 

@@ -5,7 +5,7 @@ use super::layout::Dock;
 use super::{Draft, PANELS, PanelState};
 use crate::editor::command::Commands;
 use crate::editor::painter::survey::Survey;
-use crate::editor::viewport::pointer::KnownPlace;
+use crate::editor::viewport::Viewport;
 use crate::editor::widgets::curve_view::CurveView;
 use crate::editor::widgets::random_seed;
 use crate::editor::widgets::row_view::{LockView, RowView};
@@ -45,8 +45,8 @@ pub struct Bench<'a> {
     pub locks: &'a LockView,
     /// The numbers behind curves.
     pub curves: &'a CurveView<'a>,
-    /// The ground under the pointer.
-    pub under_pointer: Option<&'a KnownPlace>,
+    /// The picture of the planet.
+    pub viewport: &'a Viewport,
     /// How the planet's land is spread over its biome table.
     pub survey: Option<&'a Survey>,
     /// The commands of the tabs, beside edits.
@@ -188,7 +188,8 @@ impl PanelState {
                 locks: bench.locks,
                 curves: bench.curves,
             },
-            under_pointer: bench.under_pointer,
+            viewport: bench.viewport,
+            under_pointer: bench.viewport.under_pointer(),
             survey: bench.survey,
             top_stays: false,
             commands: bench.commands,

@@ -35,14 +35,16 @@ pub mod structure;
 use crate::editor::command::{Action, ClipAction, Commands, PanelAction, Wanted};
 use crate::editor::painter::survey::Survey;
 use crate::editor::viewport::pointer::KnownPlace;
-use crate::editor::viewport::{Click, TabLink};
+use crate::editor::viewport::{Click, TabLink, Viewport};
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::row_view::{LockView, RowView};
 use crate::planet::param::{ParamPath, Segment};
 use crate::planet::{Planet, Tool};
 use eframe::egui;
+use eframe::egui_wgpu::RenderState;
 use finding::Finding;
 use layout::Layout;
+use life::LifeState;
 
 /// A tab of the side panel.
 pub struct Panel {
@@ -139,6 +141,8 @@ pub struct Draft<'a> {
     pub label: Option<String>,
     /// Problems of the document's planet, the filter, and the parameter that was searched for.
     pub shown: RowView<'a>,
+    /// The picture of the planet.
+    pub viewport: &'a Viewport,
     /// The ground under the pointer.
     pub under_pointer: Option<&'a KnownPlace>,
     /// How the planet's land is spread over its biome table.
@@ -175,7 +179,7 @@ pub struct PanelState {
     layers: layers::LayersState,
     /// The biomes tab.
     pub biomes: biomes::BiomesState,
-    life: life::LifeState,
+    life: LifeState,
     structure: structure::StructureState,
     /// The sculpt tab.
     pub sculpt: sculpt::SculptState,
@@ -183,9 +187,9 @@ pub struct PanelState {
 }
 
 impl PanelState {
-    /// The tabs in their places.
-    pub fn new(layout: Layout) -> Self {
-        Self { layout, ..Self::default() }
+    /// The tabs in their places, with pictures on the window's device.
+    pub fn new(layout: Layout, device: Option<&RenderState>) -> Self {
+        Self { layout, life: LifeState::new(device), ..Self::default() }
     }
 
     /// Forgets selections and texts if they belong to another document than the one of this number. Filters stay: one
@@ -193,7 +197,8 @@ impl PanelState {
     pub fn keep_to_document(&mut self, document_number: u64) {
         if self.document_number != document_number {
             let (finding, layout) = (std::mem::take(&mut self.finding), self.layout.clone());
-            *self = Self { layout, document_number, finding, ..Self::default() };
+            let life = std::mem::take(&mut self.life).for_other_document();
+            *self = Self { layout, document_number, finding, life, ..Self::default() };
         }
     }
 
@@ -231,11 +236,19 @@ impl PanelState {
 
     /// A click on the planet. Gives the name of the edit.
     pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &KnownPlace) -> Option<String> {
-        if click == Click::Plate {
-            self.structure.clicked(planet, under);
-            return None;
+        match click {
+            Click::Plate => {
+                self.structure.clicked(planet, under);
+                None
+            }
+            Click::Plant(ready) => self.life.planted(planet, ready, under),
+            Click::Pick | Click::Paint => self.biomes.clicked(planet, click, under),
         }
-        self.biomes.clicked(planet, click, under)
+    }
+
+    /// Index of the population that is selected.
+    pub fn population(&self) -> usize {
+        self.life.selected
     }
 
     /// Shows the filter of a tab with its lock and its dice. Gives whether the dice were clicked.

@@ -47,8 +47,8 @@ use super::files::dialogs::FileDialogs;
 use super::files::recent::Recent;
 use super::viewport::Viewport;
 use super::viewport::camera::{Cameras, Ground};
-use crate::planet::Planet;
 use crate::planet::sources::Sources;
+use crate::planet::{Planet, Population};
 use crate::render::Worlds;
 use bake_settings::BakeSettings;
 use baking::{BakePreview, Baking};
@@ -216,6 +216,11 @@ pub struct State {
 }
 
 impl State {
+    /// The population whose density a view shows; None if nothing stands on the planet.
+    pub fn shown_population(&self) -> Option<&Population> {
+        self.document.valid_planet().life.get(self.viewport.settings.population)
+    }
+
     /// The state at the start: a document that no file holds.
     pub fn new(planet: Planet, viewport: Viewport, dialogs: Box<dyn FileDialogs>) -> Self {
         Self {

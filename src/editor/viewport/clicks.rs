@@ -19,7 +19,14 @@ pub enum Click {
     Paint,
     /// Choose the plate there.
     Plate,
+    /// Add a ready population in the biome there: its index in
+    /// [`READY_POPULATIONS`](crate::planet::life::READY_POPULATIONS).
+    Plant(usize),
 }
+
+/// A ready population that is dragged: its index.
+#[derive(Clone, Copy)]
+pub struct ReadyDrag(pub usize);
 
 /// What the open tab shows on the planet, and which clicks and drags it takes.
 #[derive(Clone, Debug, Default)]
@@ -60,6 +67,14 @@ impl Clicks {
         view: &View,
         surface: Option<&Arc<Surface>>,
     ) {
+        if let (Some(pos), Some(surface)) = (dragged_over(ui, response), surface) {
+            if ui.input(|input| input.pointer.any_released())
+                && let Some(ready) = egui::DragAndDrop::take_payload::<ReadyDrag>(ui.ctx())
+            {
+                self.ask(response.rect, pos, view, surface, Click::Plant(ready.0));
+            }
+            return;
+        }
         let chord = ui.input(|i| is_chord(i.modifiers));
         let click = match (chord, link) {
             (true, TabLink { paints: true, .. }) => Click::Paint,
@@ -73,11 +88,15 @@ impl Clicks {
         if response.clicked()
             && let (Some(pos), Some(surface)) = (response.interact_pointer_pos(), surface)
         {
-            let (x, y) = in_view(response.rect, pos);
-            self.probe.leave();
-            self.probe.ask(Aim::Picture { x, y, view: *view }, surface, None);
-            self.clicked = Some(click);
+            self.ask(response.rect, pos, view, surface, click);
         }
+    }
+
+    fn ask(&mut self, rect: egui::Rect, pos: egui::Pos2, view: &View, surface: &Arc<Surface>, click: Click) {
+        let (x, y) = in_view(rect, pos);
+        self.probe.leave();
+        self.probe.ask(Aim::Picture { x, y, view: *view }, surface, None);
+        self.clicked = Some(click);
     }
 
     /// The click and the ground there, once, when the ground is known.
@@ -87,4 +106,10 @@ impl Clicks {
         self.clicked = None;
         answer.map(|under| (click, under))
     }
+}
+
+/// Where a ready population is dragged over the picture.
+pub(super) fn dragged_over(ui: &egui::Ui, response: &egui::Response) -> Option<egui::Pos2> {
+    let is_over = egui::DragAndDrop::has_payload_of_type::<ReadyDrag>(ui.ctx()) && response.contains_pointer();
+    ui.ctx().pointer_interact_pos().filter(|_| is_over)
 }

@@ -48,7 +48,7 @@ pub mod timeline;
 pub mod travel;
 pub mod voyage;
 
-pub use clicks::{Click, TabLink};
+pub use clicks::{Click, ReadyDrag, TabLink};
 pub use settings::ViewSettings;
 
 use crate::lod::opening::opening_place;
@@ -373,7 +373,7 @@ impl Viewport {
         if let Some(newest) = &self.newest {
             self.builder.request_views(newest, &views);
         }
-        self.look_under_pointer(&response, &view, surface.as_ref());
+        self.look_under_pointer((ui, &response), &view, surface.as_ref());
         self.clicks.look((ui, &response), &self.tab, &view, surface.as_ref());
         let sky = surface.as_ref().and_then(|_| self.sky(&view));
         if let Some(surface) = surface.clone() {
@@ -465,8 +465,14 @@ impl Viewport {
     }
 
     /// Asks for the ground under the pointer, and for the inspected place.
-    fn look_under_pointer(&mut self, response: &egui::Response, view: &View, surface: Option<&Arc<Surface>>) {
-        if let (Some(pos), Some(surface)) = (response.hover_pos(), surface) {
+    fn look_under_pointer(
+        &mut self,
+        (ui, response): (&egui::Ui, &egui::Response),
+        view: &View,
+        surface: Option<&Arc<Surface>>,
+    ) {
+        let pos = response.hover_pos().or_else(|| clicks::dragged_over(ui, response));
+        if let (Some(pos), Some(surface)) = (pos, surface) {
             let (x, y) = in_view(response.rect, pos);
             let time_secs = self.settings.time_secs;
             let clouds_at_secs = self.inspector.is_open.then_some(time_secs);

@@ -231,7 +231,7 @@ impl Picture {
         if let Some(sky) = &key.sky {
             sky.light(&mut scene, key.view.camera.position_planet_m, key.time_secs);
         }
-        scene.debug_view = key.debug_view;
+        (scene.debug_view, scene.population) = (key.debug_view, key.population);
         scene.drafts = key.drafts;
         let is_sample = !changed && !adapting;
         let metering = match settings.auto_exposure && is_sample {
@@ -304,6 +304,8 @@ struct PictureKey {
     post: Post,
     auto_exposure: bool,
     debug_view: DebugView,
+    /// The population whose density is shown, if one is.
+    population: usize,
     marked: Option<Arc<MarkedCells>>,
     sky: Option<Sky>,
     drafts: bool,
@@ -311,6 +313,7 @@ struct PictureKey {
 
 impl PictureKey {
     fn of(subject: &Subject<'_>) -> Self {
+        let shows_density = subject.settings.debug_view == DebugView::Density;
         Self {
             surface: subject.surface.clone(),
             planet: subject.revision.planet().clone(),
@@ -320,6 +323,7 @@ impl PictureKey {
             post: subject.settings.post,
             auto_exposure: subject.settings.auto_exposure,
             debug_view: subject.settings.debug_view,
+            population: if shows_density { subject.settings.population } else { 0 },
             marked: subject.marked.clone(),
             sky: subject.sky.clone(),
             drafts: subject.drafts,
@@ -327,7 +331,7 @@ impl PictureKey {
     }
 
     fn same(&self, other: &PictureKey) -> bool {
-        same_leaves(&self.surface, &other.surface)
+        same_ground(&self.surface, &other.surface)
             && Arc::ptr_eq(&self.planet, &other.planet)
             && self.view == other.view
             && self.frozen == other.frozen
@@ -335,6 +339,7 @@ impl PictureKey {
             && self.post == other.post
             && self.auto_exposure == other.auto_exposure
             && self.debug_view == other.debug_view
+            && self.population == other.population
             && self.marked == other.marked
             && self.same_sky(other)
             // What was drawn with drafts is drawn again without.
@@ -361,8 +366,9 @@ impl PictureKey {
     }
 }
 
-/// Whether two surfaces have the same tiles, with the same detail textures, horizons, parent edges and ranges.
-fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
+/// Whether two surfaces have the same tiles, with the same detail textures, horizons, parent edges and ranges, and the
+/// same objects.
+fn same_ground(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
     let serials = |leaf: &Leaf| {
         let (detail, horizon) = (leaf.detail.as_ref(), leaf.horizon.as_ref());
         (leaf.tile.serial, detail.map(|detail| detail.serial), horizon.map(|horizon| horizon.serial))
@@ -370,5 +376,6 @@ fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
     let edges = |leaf: &Leaf| (leaf.coarser_edges, leaf.finer_edges);
     let same = |(a, b): (&Leaf, &Leaf)| serials(a) == serials(b) && edges(a) == edges(b);
     let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
-    Arc::ptr_eq(a, b) || (a.complete == b.complete && a.ranges == b.ranges && all())
+    let same_objects = || a.scenery.is_same(&b.scenery);
+    Arc::ptr_eq(a, b) || (a.complete == b.complete && a.ranges == b.ranges && all() && same_objects())
 }

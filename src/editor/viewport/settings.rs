@@ -13,6 +13,8 @@ pub const CACHE_MIB: RangeInclusive<u32> = 64..=8192;
 pub struct ViewSettings {
     /// Shaded, or a debug view.
     pub debug_view: DebugView,
+    /// Index of the population whose density a view shows: the one that is selected.
+    pub population: usize,
     /// Quality of the picture.
     pub quality: Quality,
     /// Whether the tiles stay those of the view in which they were frozen.
@@ -39,6 +41,7 @@ impl ViewSettings {
     pub fn new(quality: Quality) -> Self {
         Self {
             debug_view: DebugView::default(),
+            population: 0,
             quality,
             freeze_detail: false,
             post: Post::default(),

@@ -4,7 +4,7 @@ use crate::editor::command::{Command, Commands};
 use crate::editor::commands;
 use crate::editor::state::State;
 use crate::editor::viewport::camera::Mode;
-use crate::editor::widgets::number::length_text;
+use crate::editor::widgets::number::{length_text, round_length_m};
 use crate::editor::widgets::{color32, keys_text, menu_button};
 use crate::render::{DebugView, Legend};
 use crate::sphere::geo::east_north;
@@ -43,7 +43,10 @@ pub fn show(ui: &mut egui::Ui, rect: Rect, state: &State, commands: &mut Command
     }
     let view = state.viewport.settings.debug_view;
     let of_layer = state.viewport.layer_view().legend();
-    let of_view = || state.viewport.surface().and_then(|surface| Legend::of(view, &surface));
+    let of_view = || match view {
+        DebugView::Density => state.shown_population().map(Legend::of_density),
+        _ => state.viewport.surface().and_then(|surface| Legend::of(view, &surface)),
+    };
     if let Some(legend) = of_layer.or_else(of_view) {
         show_legend(ui, pos2(rect.left() + ASIDE, bottom), &legend);
     }
@@ -151,12 +154,6 @@ fn scale(ui: &egui::Ui, left: Pos2, metres_per_point: f64) {
     painter.text(text, Align2::CENTER_BOTTOM, length_text(length_m), small(ui), INK);
 }
 
-/// The longest of 1, 2, 5, 10, ... that is not above `most_m`.
-fn round_length_m(most_m: f64) -> f64 {
-    let ten = 10_f64.powf(most_m.max(1e-3).log10().floor());
-    [5.0, 2.0].into_iter().map(|step| step * ten).find(|length_m| *length_m <= most_m).unwrap_or(ten)
-}
-
 fn show_legend(ui: &egui::Ui, bottom: Pos2, legend: &Legend) {
     let painter = ui.painter();
     match legend {
@@ -194,16 +191,4 @@ fn show_legend(ui: &egui::Ui, bottom: Pos2, legend: &Legend) {
 
 fn small(ui: &egui::Ui) -> egui::FontId {
     egui::FontId { size: 11.5, ..egui::TextStyle::Body.resolve(ui.style()) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_scale_has_a_round_length() {
-        for (most, round) in [(130.0, 100.0), (250.0, 200.0), (999.0, 500.0), (1.0, 1.0), (0.7, 0.5)] {
-            assert!((round_length_m(most) - round).abs() < 1e-9, "{most}");
-        }
-    }
 }

@@ -13,6 +13,16 @@ pub fn dragged_row<T: Any + Send + Sync + Copy>(
     row: T,
 ) -> Option<(T, usize)> {
     response.dnd_set_drag_payload(row);
+    gap_under(ui, response, index)
+}
+
+/// Draws a line in the gap into which what is dragged would be dropped: before row `index` of a list or behind it.
+/// Gives what was dropped, and the gap.
+pub fn gap_under<T: Any + Send + Sync + Copy>(
+    ui: &egui::Ui,
+    response: &egui::Response,
+    index: usize,
+) -> Option<(T, usize)> {
     let from = *response.dnd_hover_payload::<T>()?;
     let (pointer, rect) = (ui.ctx().pointer_interact_pos()?, response.rect);
     let below = pointer.y > rect.center().y;

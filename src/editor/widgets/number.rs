@@ -93,6 +93,12 @@ pub fn length_text(metres: f64) -> String {
     }
 }
 
+/// The longest of 1, 2, 5, 10, ... that is not above `most_m`.
+pub fn round_length_m(most_m: f64) -> f64 {
+    let ten = 10_f64.powf(most_m.max(1e-3).log10().floor());
+    [5.0, 2.0].into_iter().map(|step| step * ten).find(|length_m| *length_m <= most_m).unwrap_or(ten)
+}
+
 fn round_to(value: f64, decimals: usize) -> String {
     // Adding zero turns "-0" into "0".
     let scale = 10f64.powi(decimals as i32);
@@ -146,5 +152,12 @@ mod tests {
         assert_eq!(length_text(-0.04), "0.0 m");
         assert_eq!(length_text(8848.2), "8848 m");
         assert_eq!(length_text(12_742_000.0), "12742 km");
+    }
+
+    #[test]
+    fn a_scale_has_a_round_length() {
+        for (most, round) in [(130.0, 100.0), (250.0, 200.0), (999.0, 500.0), (1.0, 1.0), (0.7, 0.5)] {
+            assert!((round_length_m(most) - round).abs() < 1e-9, "{most}");
+        }
     }
 }

@@ -17,8 +17,12 @@ pub(crate) const LAYER_ROWS: usize = 9;
 pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
 /// Share of its area that counts in the choice of populations of a biome for one that stands in few of its places.
 const RARELY: f64 = 0.05;
-/// Row of a population that begins with its slopes, and a slope that no ground has.
+/// Rows of a population that begin with its slopes, that have the height of the shore, and the channel of the planting
+/// map.
 const SLOPES: usize = 2;
+const SHORE: usize = 4;
+const CHANNEL: usize = 8;
+/// A slope that no ground has.
 const NO_SLOPE_DEG: f32 = 1000.0;
 
 /// The canopy of a population.
@@ -41,19 +45,59 @@ impl Layer {
     }
 }
 
+/// The population whose density is shown.
+#[derive(Clone, Debug, PartialEq)]
+struct Shown {
+    biomes: String,
+    /// Its rows, without those that tell how it looks.
+    texels: [[f32; 4]; LAYER_ROWS],
+}
+
 /// The canopies of a planet.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct CanopyRows(Vec<Layer>);
+pub(crate) struct CanopyRows {
+    layers: Vec<Layer>,
+    shown: Option<Shown>,
+}
+
+/// Rows of a population that say where it stands: slopes and moistures, heights and temperatures.
+fn rules(population: &Population) -> [[f64; 4]; 2] {
+    let Population { slope_from_deg, slope_to_deg, moisture_from, moisture_to, .. } = *population;
+    let Population { height_from_m, height_to_m, temperature_from_c, temperature_to_c, .. } = *population;
+    [
+        [slope_from_deg, slope_to_deg, moisture_from, moisture_to],
+        [height_from_m, height_to_m, temperature_from_c, temperature_to_c],
+    ]
+}
+
+/// Height over the sea from which a population stands; far below it for one that stands in water.
+fn shore_m(population: &Population) -> f64 {
+    if population.in_water { -1e6 } else { population.shore_m }
+}
+
+/// Rows as the shader takes them.
+fn texels(rows: [[f64; 4]; LAYER_ROWS]) -> [[f32; 4]; LAYER_ROWS] {
+    rows.map(|row| row.map(|number| number as f32))
+}
 
 impl CanopyRows {
-    /// The canopies of a body's populations, as far as they are known.
-    pub(crate) fn new(body: &Body<'_>) -> Self {
+    /// The canopies of a body's populations, as far as they are known. `shown`: index of the population whose density
+    /// is shown.
+    pub(crate) fn new(body: &Body<'_>, shown: Option<usize>) -> Self {
         let scenery = &body.surface.scenery;
         let planting = |index: usize, population: &Population| {
             let map = scenery.planting.as_ref().and_then(|map| map.populations.get(index).copied());
-            // Without its channel one that asks for water, ridges or hollows would be seen everywhere.
-            map.unwrap_or_else(|| (!population.asks_lie()).then_some((0, false)))
+            // Until its channel is there one that asks for water, ridges or hollows would be seen everywhere.
+            map.or_else(|| (!population.asks_lie()).then_some((0, false)))
         };
+        let shown = shown.and_then(|index| {
+            let population = populations(body).get(index).filter(|population| population.enabled)?;
+            let (channel, _) = planting(index, population)?;
+            let mut rows = [[0.0; 4]; LAYER_ROWS];
+            rows[SLOPES..SLOPES + 2].copy_from_slice(&rules(population));
+            (rows[SHORE][2], rows[CHANNEL][3]) = (shore_m(population), f64::from(channel));
+            Some(Shown { biomes: population.biomes.clone(), texels: texels(rows) })
+        });
         let layers = layers(scenery, populations(body)).zip(&scenery.reach_m).enumerate();
         let layers = layers.filter_map(|(index, ((population, layer), reach_m))| {
             Some((population, layer?, *reach_m, planting(index, population)?))
@@ -61,18 +105,13 @@ impl CanopyRows {
         let layers = layers.map(|(population, layer, reach_m, (channel, is_planted))| {
             let ([r, g, b], cover) = (layer.color, &layer.cover);
             let (fallen, littered) = layer.litter;
-            let shore_m = if population.in_water { -1e6 } else { population.shore_m };
-            let texels = [
+            let [ground, climate] = rules(population);
+            let rows = [
                 [r, g, b, layer.top],
                 [layer.side, cover.sky[0], cover.sky[1], reach_m],
-                [population.slope_from_deg, population.slope_to_deg, population.moisture_from, population.moisture_to],
-                [
-                    population.height_from_m,
-                    population.height_to_m,
-                    population.temperature_from_c,
-                    population.temperature_to_c,
-                ],
-                [layer.width_m, population.clumping, shore_m, layer.casting],
+                ground,
+                climate,
+                [layer.width_m, population.clumping, shore_m(population), layer.casting],
                 [cover.sun[0][0], cover.sun[0][1], layer.height_m, f64::from(Material::of(&population.form) as u32)],
                 [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
                 [fallen[0], fallen[1], fallen[2], littered],
@@ -83,10 +122,20 @@ impl CanopyRows {
                 is_planted,
                 height_m: layer.height_m,
                 area: (layer.top + layer.side) * if population.asks_lie() { RARELY } else { 1.0 },
-                texels: texels.map(|row| row.map(|number| number as f32)),
+                texels: texels(rows),
             }
         });
-        Self(layers.collect())
+        Self { layers: layers.collect(), shown }
+    }
+
+    /// Whether the rules of the shown population put it into a biome.
+    pub(crate) fn shows_in(&self, key: char) -> bool {
+        self.shown.as_ref().is_some_and(|shown| shown.biomes.is_empty() || shown.biomes.contains(key))
+    }
+
+    /// The rows of the shown population; None if there is none, it is off, or its place is not known yet.
+    pub(crate) fn shown(&self) -> Option<&[[f32; 4]; LAYER_ROWS]> {
+        self.shown.as_ref().map(|shown| &shown.texels)
     }
 
     /// The populations of a biome that count, the highest first: their number and their rows.
@@ -96,9 +145,9 @@ impl CanopyRows {
             let more = |a: &Layer, b: &Layer| b.is_planted.cmp(&a.is_planted).then(b.area.total_cmp(&a.area));
             layers.sort_by(more);
         };
-        let mut layers: Vec<Layer> = self.0.iter().filter(stands).cloned().collect();
+        let mut layers: Vec<Layer> = self.layers.iter().filter(stands).cloned().collect();
         by_area(&mut layers);
-        let strangers = self.0.iter().filter(|layer| !stands(layer) && layer.is_planted);
+        let strangers = self.layers.iter().filter(|layer| !stands(layer) && layer.is_planted);
         let mut strangers: Vec<Layer> = strangers.map(Layer::where_planted).collect();
         by_area(&mut strangers);
         // One that strokes plant is worth more than the one that covers least.

@@ -6,9 +6,11 @@
 //! - `material`: their materials (`life_material.wgsl`)
 //! - `view`: which objects a view draws, at which level of detail
 //! - `shadow`: their shadows (`life_shadow.wgsl`), and those of a game's things
+//! - `form_view`: pictures of single forms (`form_view.wgsl`)
 //! - `pass`: their light (`life_light.wgsl`, compute) and their drawing (`life.wgsl`)
 
 mod canopy;
+mod form_view;
 mod material;
 mod models;
 mod pass;
@@ -17,6 +19,7 @@ mod shadow;
 mod view;
 
 pub(crate) use canopy::{CanopyRows, LAYER_ROWS as CANOPY_LAYER_ROWS, LAYERS as CANOPY_LAYERS, ROWS as CANOPY_ROWS};
+pub use form_view::{FormCamera, FormMesh, FormTarget, FormView};
 pub(crate) use material::Material;
 pub(crate) use models::LifeModels;
 pub(crate) use pass::{LifePass, LifeTargets};

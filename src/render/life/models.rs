@@ -1,7 +1,7 @@
 //! Meshes of forms on the GPU: a vertex and an index buffer for each model.
 
 use crate::life::Model;
-use crate::life::form::{LEVELS, Mesh};
+use crate::life::form::{self, LEVELS, Mesh};
 use crate::planet::Key;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -20,6 +20,17 @@ pub(super) struct Vertex {
 /// The attributes of a vertex.
 pub(super) const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Snorm8x4, 2 => Unorm8x4];
+
+/// A corner of a mesh of a level. `light`: logarithm of the level's factor of light.
+pub(super) fn packed(vertex: &form::Vertex, light: i8, level: usize) -> Vertex {
+    let [x, y, z] = vertex.normal.to_array().map(|part| (part * 127.0).round() as i8);
+    let look = [vertex.part, vertex.light, vertex.sway].map(|share| (share * 255.0).round() as u8);
+    Vertex {
+        position: vertex.position.to_array(),
+        normal: [x, y, z, light],
+        look: [look[0], look[1], look[2], (level * 85) as u8],
+    }
+}
 
 /// A mesh in the buffers of its model.
 #[derive(Clone)]
@@ -42,15 +53,7 @@ impl GpuModel {
         let mut add = |level: usize, mesh: &Mesh| {
             let light = (model.level_light[level].log2().clamp(-1.0, 1.0) * 127.0).round() as i8;
             let (base_vertex, first) = (vertices.len() as i32, indices.len() as u32);
-            vertices.extend(mesh.vertices.iter().map(|vertex| {
-                let [x, y, z] = vertex.normal.to_array().map(|part| (part * 127.0).round() as i8);
-                let look = [vertex.part, vertex.light, vertex.sway].map(|share| (share * 255.0).round() as u8);
-                Vertex {
-                    position: vertex.position.to_array(),
-                    normal: [x, y, z, light],
-                    look: [look[0], look[1], look[2], (level * 85) as u8],
-                }
-            }));
+            vertices.extend(mesh.vertices.iter().map(|vertex| packed(vertex, light, level)));
             indices.extend(mesh.triangles.iter().flatten());
             Part { indices: first..indices.len() as u32, base_vertex }
         };

@@ -11,10 +11,10 @@ pub(crate) use constants::*;
 pub use constants::{MAX_POINTS, MAX_SUNS};
 pub(crate) use structs::*;
 
-use super::biome_table::{CANOPY, ROCK, RULES, WRAP_FAR_M, WRAP_M};
+use super::biome_table::{CANOPY, ROCK, RULES, SHOWN, SHOWN_ROW, WRAP_FAR_M, WRAP_M};
+use super::debug_view::DebugView;
 use super::life::{CANOPY_LAYER_ROWS, CANOPY_LAYERS, Material};
 use super::material_maps::{PATTERN_ROUGHNESS, PATTERN_STEEPEST};
-use super::scene::DebugView;
 use super::tone::{self, Tone};
 use super::wgsl::{Constant, constant};
 use super::{horizon_pool, material_noise};
@@ -86,6 +86,8 @@ pub(crate) fn text() -> String {
         // Biomes
         ("BIOME_ROCK", &(ROCK as i32)),
         ("BIOME_RULES", &(RULES as i32)),
+        ("BIOME_SHOWN", &(SHOWN as i32)),
+        ("SHOWN_ROW", &(SHOWN_ROW as i32)),
         ("MIXTURE_ENTRIES", &MIXTURE_ENTRIES),
         ("WRAP_M", &WRAP_M),
         ("WRAP_FAR_M", &WRAP_FAR_M),
