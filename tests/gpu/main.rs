@@ -9,6 +9,7 @@
 //! - `cloud_edges`: clouds near the horizon: stairs and stripes
 //! - `cloud_light`: light under clouds: rain, fog, night
 //! - `lakes`: water of planets with a structure
+//! - `meshes`: meshes of artists as objects
 //! - `life`: objects on the ground and their shadows; `planting`: what strokes clear and plant of them, from afar
 //! - `neighbours`: shadows and light between bodies, rings
 //! - `night`: airglow, aurora, lights of settlements
@@ -37,6 +38,7 @@ mod life;
 mod lod_pictures;
 mod materials;
 mod neighbours;
+mod meshes;
 mod night;
 mod photo;
 mod planets;
@@ -50,5 +52,7 @@ mod shadows;
 mod shimmer;
 mod sky;
 
+#[path = "../support/glb.rs"]
+mod glb;
 #[path = "../support/mod.rs"]
 mod support;

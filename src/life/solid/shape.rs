@@ -23,6 +23,10 @@ const TOLERANCE: f64 = 0.01;
 /// A part is a ball if its corners are at distances from its middle that differ by less than this share.
 const BALL: f64 = 0.12;
 
+/// Height in heights up to which the corners of a stem in a file are its foot, which goes as far into the ground: few
+/// have roots.
+const FOOT: f32 = 0.02;
+
 /// What bodies hit of an object of height 1: z up, the foot at the origin.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shape {
@@ -74,6 +78,7 @@ impl Counts {
             Form::Cactus(_) | Form::Mushroom(_) | Form::Stone(_) | Form::Crystal(_) | Form::Cushion(_) => Self::Bodies,
             Form::Bulbs(_) => Self::Both,
             Form::Tuft(_) => Self::Nothing,
+            Form::Mesh(_) | Form::Game(_) => Self::Bodies,
         }
     }
 }
@@ -85,7 +90,18 @@ impl Shape {
         if counts == Counts::Nothing {
             return Self::default();
         }
-        Self::measured(&form::mesh(&population.form, model::seed(population, variant), 0), counts)
+        let mesh = form::mesh(&population.form, model::seed(population, variant), 0);
+        if matches!(population.form, Form::Mesh(_)) { Self::of_file(mesh) } else { Self::measured(&mesh, counts) }
+    }
+
+    /// The shape of a mesh of a file: stems if leaves or open ground are around them, bodies otherwise.
+    fn of_file(mut mesh: Mesh) -> Self {
+        let counts = if form::is_open(&mesh) { Counts::Stems } else { Counts::Bodies };
+        mesh.triangles.retain(|triangle| triangle.iter().all(|&at| mesh.vertices[usize::from(at)].part < 0.5));
+        for vertex in mesh.vertices.iter_mut().filter(|vertex| counts == Counts::Stems && vertex.position.z < FOOT) {
+            vertex.position.z = vertex.position.z.min(-FOOT);
+        }
+        Self::measured(&mesh, counts)
     }
 
     fn measured(mesh: &Mesh, counts: Counts) -> Self {
