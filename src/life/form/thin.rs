@@ -12,6 +12,8 @@ const LOOSE: usize = 16;
 const SHARES: [f32; 2] = [0.3, 0.4];
 /// Triangles that a loose part keeps in a coarser level.
 const KEPT: usize = 2;
+/// Triangles for each solid part, at least: the smallest parts are left out where there are fewer.
+const ROD: usize = 12;
 /// Half width of joined twigs, as a share of the cell.
 const TWIG: f32 = 0.35;
 /// Greatest factor on the width of loose parts.
@@ -52,20 +54,20 @@ impl Thinned {
 pub(super) fn thinned(fine: &Fine, most: usize) -> Thinned {
     let parts = connected(fine);
     let (loose, solid): (Vec<Vec<usize>>, Vec<Vec<usize>>) = parts.into_iter().partition(|part| part.len() <= LOOSE);
-    let solid: Vec<usize> = solid.into_iter().flatten().collect();
+    let of_solid: usize = solid.iter().map(Vec::len).sum();
     let of_loose: usize = loose.iter().map(Vec::len).sum();
     let mut out = Thinned { fine: Fine::default(), middles: Vec::new(), thickness: 0.0 };
     let is_all = fine.triangles.len() <= most;
-    let wanted = most as f32 * solid.len() as f32 / fine.triangles.len().max(1) as f32;
+    let wanted = most as f32 * of_solid as f32 / fine.triangles.len().max(1) as f32;
     let for_solid = match (solid.is_empty(), loose.is_empty()) {
         (true, _) => 0,
         (_, true) => most,
         _ => wanted.clamp(SHARES[0] * most as f32, (1.0 - SHARES[1]) * most as f32) as usize,
     };
     if is_all {
-        out.copy(fine, &solid, None);
+        solid.iter().for_each(|part| out.copy(fine, part, None));
     } else {
-        out.cluster(fine, &solid, for_solid);
+        out.cluster(fine, &largest(fine, solid, for_solid / ROD), for_solid);
     }
     out.thickness = thickness(&out.fine).max(out.thickness);
     // What solid parts have not needed is there for loose ones.
@@ -155,6 +157,15 @@ impl Thinned {
         self.fine.vertices.extend(best.vertices);
         self.fine.triangles.extend(best.triangles.iter().map(|triangle| triangle.map(|at| first + at)));
     }
+}
+
+/// Triangles of the largest parts, `most` of them and at least one.
+fn largest(fine: &Fine, parts: Vec<Vec<usize>>, most: usize) -> Vec<usize> {
+    let whole = |part: &Vec<usize>| part.iter().map(|&at| area(fine, at)).sum::<f32>();
+    let mut parts: Vec<(f32, Vec<usize>)> = parts.into_iter().map(|part| (whole(&part), part)).collect();
+    parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+    parts.truncate(most.max(1));
+    parts.into_iter().flat_map(|(_, part)| part).collect()
 }
 
 /// Triangles with one corner for each cell. Corners on other sides of a thin part stay apart, so that it keeps a width.

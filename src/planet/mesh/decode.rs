@@ -1,7 +1,7 @@
 //! The scene of a glTF document: what it needs, its nodes and their materials.
 
-use super::data::{MAX_TRIANGLES, MeshData, MeshNode};
-use super::surface::{self, Paint, z_up};
+use super::data::{MeshData, MeshNode};
+use super::surface::{self, Left, Paint, z_up};
 use super::texture::Texture;
 use crate::planet::key::fnv1a;
 use glam::{Mat4, Vec3, Vec4};
@@ -16,6 +16,10 @@ const MOST_NODES: usize = 20_000;
 const MOST_DEPTH: usize = 64;
 /// Greatest distance of a node's corners from its foot, in heights of the mesh.
 const MOST_WIDE: f32 = 50.0;
+/// Most objects of a document: each takes more memory than text.
+const MOST_OBJECTS: usize = 300_000;
+/// Most pixels of all pictures of a file.
+const MOST_PIXELS: usize = 1 << 28;
 /// Parts of names of materials of leaves.
 const LEAVES: [&str; 4] = ["leaf", "leaves", "foliage", "needle"];
 /// Extensions that a file may need: those that change no triangle, or that are read.
@@ -42,7 +46,7 @@ pub(super) fn decode(bytes: &[u8], fetch: &mut Fetch<'_>) -> Result<MeshData, St
     let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
         return Err("has no scene; export one with the mesh in it".to_owned());
     };
-    let mut walk = Walk { textures: &textures, buffers: &buffers, left: MAX_TRIANGLES, visited: 0, mixes: mixes(&document) };
+    let mut walk = Walk { textures: &textures, buffers: &buffers, left: Left::all(), visited: 0, mixes: mixes(&document) };
     let nodes = scene.nodes().map(|top| walk.top(&top)).collect::<Result<Vec<_>, _>>()?;
     let nodes: Vec<MeshNode> = nodes.into_iter().filter(|node| !node.triangles.is_empty()).collect();
     check(&nodes)?;
@@ -54,6 +58,10 @@ fn parsed(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), String> {
     let is_text = bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{');
     if !bytes.starts_with(b"glTF") && !is_text {
         return Err("is no glTF 2.0 file; export the mesh as .glb or .gltf".to_owned());
+    }
+    let text = gltf::Glb::from_slice(bytes).map(|glb| glb.json);
+    if text.as_deref().unwrap_or(bytes).iter().filter(|byte| **byte == b'{').count() > MOST_OBJECTS {
+        return Err(format!("has more than {MOST_OBJECTS} nodes, accessors and others; export a mesh with fewer"));
     }
     let read = Gltf::from_slice_without_validation(bytes).map_err(|error| match error {
         gltf::Error::Deserialize(at) => {
@@ -127,7 +135,7 @@ fn textures(
     buffers: &[Vec<u8>],
     files: &mut Files<'_, '_>,
 ) -> Result<HashMap<usize, Texture>, String> {
-    let mut found = HashMap::new();
+    let (mut found, mut left) = (HashMap::new(), MOST_PIXELS);
     let of_colors = |material: Material<'_>| {
         Some(material.pbr_metallic_roughness().base_color_texture()?.texture().source().index())
     };
@@ -143,7 +151,7 @@ fn textures(
                 bytes.ok_or_else(|| format!("is broken: picture {at} lies outside its buffer; export it anew"))?
             }
         };
-        found.insert(at, Texture::new(&bytes).map_err(|why| format!("has picture {at}, which {why}"))?);
+        found.insert(at, Texture::new(&bytes, &mut left).map_err(|why| format!("has picture {at}, which {why}"))?);
     }
     Ok(found)
 }
@@ -158,8 +166,7 @@ fn mixes(document: &Document) -> bool {
 struct Walk<'a> {
     textures: &'a HashMap<usize, Texture>,
     buffers: &'a [Vec<u8>],
-    /// Triangles that the file may still have.
-    left: usize,
+    left: Left,
     visited: usize,
     /// See [`mixes`].
     mixes: bool,

@@ -27,30 +27,55 @@ pub(super) fn z_up(v: Vec3) -> Vec3 {
     Vec3::new(v.x, -v.z, v.y)
 }
 
-/// Adds the triangles of a primitive to a node. Points and lines have none. `left`: triangles that the file may still
-/// have.
+/// What a file may still have.
+pub(super) struct Left {
+    triangles: usize,
+    corners: usize,
+}
+
+impl Left {
+    /// What a whole file may have. Corners that no triangle has count, too.
+    pub(super) fn all() -> Self {
+        Self { triangles: MAX_TRIANGLES, corners: 4 * MAX_TRIANGLES }
+    }
+
+    fn take_corners(&mut self, count: usize) -> Result<(), String> {
+        self.corners = self.corners.checked_sub(count).ok_or_else(|| {
+            format!("has more than {} corners; export a mesh with fewer", 4 * MAX_TRIANGLES)
+        })?;
+        Ok(())
+    }
+
+    fn take_triangles(&mut self, count: usize) -> Result<(), String> {
+        self.triangles = self.triangles.checked_sub(count).ok_or_else(|| {
+            format!("has more than {MAX_TRIANGLES} triangles, the limit of a mesh; export one with fewer")
+        })?;
+        Ok(())
+    }
+}
+
+/// Adds the triangles of a primitive to a node. Points and lines have none.
 pub(super) fn add(
     out: &mut MeshNode,
     primitive: &Primitive<'_>,
     world: Mat4,
     paint: &Paint<'_>,
     buffers: &[Vec<u8>],
-    left: &mut usize,
+    left: &mut Left,
 ) -> Result<(), String> {
     if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
         return Ok(());
     }
     let most = 3 * MAX_TRIANGLES;
     let Some(places) = primitive.get(&Semantic::Positions) else { return Ok(()) };
+    left.take_corners(places.count())?;
     let places = floats::<3>(&places, buffers, most, 0.0)?;
     let order = match primitive.indices() {
         Some(order) => indices(&order, buffers, most)?,
         None => (0..places.len() as u32).collect(),
     };
     let triangles = triangles(primitive.mode(), &order);
-    *left = left.checked_sub(triangles.len()).ok_or_else(|| {
-        format!("has more than {MAX_TRIANGLES} triangles, the limit of a mesh; export one with fewer")
-    })?;
+    left.take_triangles(triangles.len())?;
     if triangles.iter().flatten().any(|&at| at as usize >= places.len()) {
         return Err("is broken: an index leads to no corner; export it anew".to_owned());
     }

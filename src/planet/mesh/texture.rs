@@ -15,11 +15,11 @@ pub(super) struct Texture {
 }
 
 impl Texture {
-    /// Reads a PNG or a JPEG.
-    pub(super) fn new(bytes: &[u8]) -> Result<Self, String> {
+    /// Reads a PNG or a JPEG. `left`: pixels that the pictures of the file may still have.
+    pub(super) fn new(bytes: &[u8], left: &mut usize) -> Result<Self, String> {
         let (size, pixels) = match bytes {
-            [0x89, b'P', b'N', b'G', ..] => png(bytes)?,
-            [0xff, 0xd8, ..] => jpeg(bytes)?,
+            [0x89, b'P', b'N', b'G', ..] => png(bytes, left)?,
+            [0xff, 0xd8, ..] => jpeg(bytes, left)?,
             _ => return Err("is neither PNG nor JPEG; save it as one of them".to_owned()),
         };
         Ok(Self::shrunk(size, &pixels))
@@ -72,10 +72,11 @@ fn linear(part: f32) -> f32 {
     if part <= 0.040_45 { part / 12.92 } else { libm::powf((part + 0.055) / 1.055, 2.4) }
 }
 
-fn checked(width: usize, height: usize) -> Result<[usize; 2], String> {
+fn checked(width: usize, height: usize, left: &mut usize) -> Result<[usize; 2], String> {
     if width.max(height) > MOST_SIDE || width.min(height) == 0 {
         return Err(format!("has {width} x {height} pixels; use at most {MOST_SIDE} along a side"));
     }
+    *left = left.checked_sub(width * height).ok_or("is one of too many; use fewer or smaller pictures")?;
     Ok([width, height])
 }
 
@@ -83,24 +84,24 @@ fn broken(why: &dyn std::fmt::Display) -> String {
     format!("is broken: {why}; save it anew")
 }
 
-fn png(bytes: &[u8]) -> Result<([usize; 2], Vec<u8>), String> {
+fn png(bytes: &[u8], left: &mut usize) -> Result<([usize; 2], Vec<u8>), String> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::STRIP_16);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info().map_err(|error| broken(&error))?;
-    let size = checked(header.width as usize, header.height as usize)?;
+    let size = checked(header.width as usize, header.height as usize, left)?;
     let mut reader = decoder.read_info().map_err(|error| broken(&error))?;
     let mut raw = vec![0; reader.output_buffer_size().ok_or("is too large")?];
     reader.next_frame(&mut raw).map_err(|error| broken(&error))?;
     Ok((size, rgba(&raw, reader.output_color_type().0.samples())))
 }
 
-fn jpeg(bytes: &[u8]) -> Result<([usize; 2], Vec<u8>), String> {
+fn jpeg(bytes: &[u8], left: &mut usize) -> Result<([usize; 2], Vec<u8>), String> {
     let mut decoder = zune_jpeg::JpegDecoder::new(Cursor::new(bytes));
     decoder.decode_headers().map_err(|error| broken(&error))?;
     let (width, height) = decoder.dimensions().ok_or("is broken; save it anew")?;
-    let size = checked(width, height)?;
+    let size = checked(width, height, left)?;
     let raw = decoder.decode().map_err(|error| broken(&error))?;
     Ok((size, rgba(&raw, raw.len() / (width * height))))
 }
@@ -133,7 +134,7 @@ mod tests {
 
     #[test]
     fn what_is_transparent_gives_no_colour() {
-        let texture = Texture::new(&pair()).unwrap();
+        let texture = Texture::new(&pair(), &mut 99).unwrap();
         let over = |from: f32, to: f32| texture.mean([Vec2::new(from, 0.1), Vec2::new(to, 0.1), Vec2::new(to, 0.9)]);
         let (whole, alpha) = over(0.0, 1.0);
         assert!(whole.abs_diff_eq(Vec3::X, 1e-6) && (0.2..0.6).contains(&alpha), "{whole} {alpha}");
@@ -144,8 +145,9 @@ mod tests {
 
     #[test]
     fn other_files_are_refused() {
-        assert!(Texture::new(b"RIFF").err().unwrap().contains("neither PNG nor JPEG"));
-        assert!(Texture::new(&pair()[..40]).err().unwrap().starts_with("is broken"));
-        assert!(Texture::new(&[0xff, 0xd8, 0xff]).err().unwrap().starts_with("is broken"));
+        assert!(Texture::new(&pair(), &mut 1).err().unwrap().contains("one of too many"));
+        assert!(Texture::new(b"RIFF", &mut 99).err().unwrap().contains("neither PNG nor JPEG"));
+        assert!(Texture::new(&pair()[..40], &mut 99).err().unwrap().starts_with("is broken"));
+        assert!(Texture::new(&[0xff, 0xd8, 0xff], &mut 99).err().unwrap().starts_with("is broken"));
     }
 }
