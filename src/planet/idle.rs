@@ -5,8 +5,8 @@ use super::layers::Blend;
 use super::param::{ParamPath, Segment};
 use super::shapes::CellStyle;
 use super::{
-    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Form, Giant, GroundEdit, Layer, Planet, Population, Rings, Shape,
-    Steep, Structure, TableRows, Tool, Water,
+    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Form, Giant, GroundEdit, Layer, Planet, Population, Rings,
+    Shape, Steep, Structure, TableRows, Tool, Water,
 };
 
 const ONE_COPY: &str = "There is one copy only";

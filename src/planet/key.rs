@@ -27,7 +27,11 @@ impl Key {
         let pictures: Vec<_> = bare.pictures().map(|(_, file, extent)| file.picture(extent)).collect();
         let meshes: Vec<_> = bare.meshes().map(|(_, file)| file.mesh()).collect();
         // A planet without meshes keeps the key that it had before there were any.
-        if meshes.is_empty() { Self::of(&(bare.to_text(), pictures)) } else { Self::of(&(bare.to_text(), pictures, meshes)) }
+        if meshes.is_empty() {
+            Self::of(&(bare.to_text(), pictures))
+        } else {
+            Self::of(&(bare.to_text(), pictures, meshes))
+        }
     }
 
     /// The hash as a number.

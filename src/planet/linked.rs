@@ -46,11 +46,7 @@ impl<L: Linked> Clone for LinkedFile<L> {
 impl<L: Linked> fmt::Debug for LinkedFile<L> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { path, folder, loaded } = self;
-        f.debug_struct("LinkedFile")
-            .field("path", path)
-            .field("folder", folder)
-            .field("loaded", loaded)
-            .finish()
+        f.debug_struct("LinkedFile").field("path", path).field("folder", folder).field("loaded", loaded).finish()
     }
 }
 

@@ -162,8 +162,8 @@ impl Planet {
         };
         let pictures =
             self.pictures().filter(|(_, file, extent)| !file.path().is_empty() && file.picture(*extent).is_none());
-        let pictures = pictures
-            .map(|(path, file, extent)| (path, source(file.path(), file.key(extent).map(FileKey::Picture))));
+        let pictures =
+            pictures.map(|(path, file, extent)| (path, source(file.path(), file.key(extent).map(FileKey::Picture))));
         let meshes = self.meshes().filter(|(_, file)| !file.path().is_empty() && file.mesh().is_none());
         let meshes = meshes.map(|(path, file)| (path, source(file.path(), file.location().map(FileKey::Mesh))));
         pictures.chain(meshes).collect()

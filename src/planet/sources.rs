@@ -33,7 +33,10 @@ impl Sources {
         let pictures: Vec<PathBuf> = planet.pictures().filter_map(|(_, file, _)| file.location()).collect();
         for file in planet.linked_paths() {
             let is_picture = pictures.contains(&file);
-            sources.add(&file, if is_picture { "a picture that the planet reads" } else { "a mesh that the planet reads" });
+            sources.add(
+                &file,
+                if is_picture { "a picture that the planet reads" } else { "a mesh that the planet reads" },
+            );
         }
         sources
     }

@@ -119,7 +119,8 @@ fn what_is_no_usable_mesh_is_refused_with_what_would_be_right() {
         assert!(text.contains(from), "{from}");
         packed(text.replacen(from, to, 1), &bytes)
     };
-    let needing = |extension: &str| changed("\"scene\":0", &format!("\"scene\":0,\"extensionsRequired\":[\"{extension}\"]"));
+    let needing =
+        |extension: &str| changed("\"scene\":0", &format!("\"scene\":0,\"extensionsRequired\":[\"{extension}\"]"));
     let infinite = {
         let mut parts = tree();
         parts[0].positions[3][1] = f32::NAN;
@@ -291,14 +292,17 @@ fn levels_of_a_mesh_are_within_their_budgets() {
     // A ball of 2 x 60 x 60 triangles on the ground.
     let side = 60_u16;
     let place = |i: u16, j: u16| {
-        let (a, b) = (f32::from(i) / f32::from(side) * std::f32::consts::TAU, f32::from(j) / f32::from(side) * std::f32::consts::PI);
+        let (a, b) = (
+            f32::from(i) / f32::from(side) * std::f32::consts::TAU,
+            f32::from(j) / f32::from(side) * std::f32::consts::PI,
+        );
         Vec3::new(b.sin() * a.cos(), 1.0 - b.cos(), b.sin() * a.sin()).to_array()
     };
     let positions = (0..=side).flat_map(|j| (0..=side).map(move |i| place(i, j))).collect();
     let at = |i: u16, j: u16| j * (side + 1) + i;
-    let triangles = (0..side).flat_map(|j| (0..side).map(move |i| (i, j))).flat_map(|(i, j)| {
-        [[at(i, j), at(i, j + 1), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i + 1, j)]]
-    });
+    let triangles = (0..side)
+        .flat_map(|j| (0..side).map(move |i| (i, j)))
+        .flat_map(|(i, j)| [[at(i, j), at(i, j + 1), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i + 1, j)]]);
     let ball = Part { positions, triangles: triangles.collect(), ..block([1.0; 3], 0.0, [0.4; 3]) };
     let model = Model::new(&read(&glb(&[ball])).unwrap());
     let counts: [usize; LEVELS] = std::array::from_fn(|level| model.variants[0][level].triangles.len());

@@ -20,7 +20,9 @@ pub struct Part {
 /// A box on the ground, closed, with the front outside.
 pub fn block(size: [f32; 3], foot_m: f32, color: [f32; 3]) -> Part {
     let [x, y, z] = [0.5 * size[0], size[1], 0.5 * size[2]];
-    let corner = |i: u16| [[-x, x][usize::from(i & 1)], foot_m + [0.0, y][usize::from(i >> 1 & 1)], [-z, z][usize::from(i >> 2)]];
+    let corner = |i: u16| {
+        [[-x, x][usize::from(i & 1)], foot_m + [0.0, y][usize::from(i >> 1 & 1)], [-z, z][usize::from(i >> 2)]]
+    };
     let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3]];
     Part {
         name: "block",

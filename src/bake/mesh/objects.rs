@@ -101,8 +101,7 @@ struct Kind<'a> {
 impl Kind<'_> {
     /// Colour of a vertex, linear sRGB.
     fn color(&self, vertex: &Vertex) -> Vec3 {
-        let [first, second] =
-            self.population.colors().map(|color| DVec3::from_array(color).as_vec3());
+        let [first, second] = self.population.colors().map(|color| DVec3::from_array(color).as_vec3());
         (first.lerp(second, vertex.part) * vertex.tint).clamp(Vec3::ZERO, Vec3::ONE)
     }
 }
@@ -241,8 +240,7 @@ impl<'a> Document<'a> {
         let indices = self.accessor(Part { what: What::Triangles, kind }, Some(ELEMENT_ARRAY_BUFFER));
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0 });
         let instances = self.attributes(&What::INSTANCES, kind, None);
-        let mut about =
-            json!({ "kind": kind.population.name, "population": kind.index, "variant": kind.variant });
+        let mut about = json!({ "kind": kind.population.name, "population": kind.index, "variant": kind.variant });
         if let Form::Game(form) = &kind.population.form {
             about["asset"] = json!(form.asset);
         }

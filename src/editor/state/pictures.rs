@@ -125,9 +125,8 @@ impl Pictures {
         let is_same = |failure: &Failure| stamps_of(&failure.key, None)[0] == failure.stamps[0];
         self.failed.retain(|failure| is_wanted(&failure.key) && is_same(failure));
         let stale = self.known.iter().filter(|known| known.is_stale).flat_map(|known| {
-            let pictures = planet.pictures().filter_map(|(path, file, extent)| {
-                Some((path, FileKey::Picture(file.key(extent)?)))
-            });
+            let pictures =
+                planet.pictures().filter_map(|(path, file, extent)| Some((path, FileKey::Picture(file.key(extent)?))));
             let meshes = planet.meshes().filter_map(|(path, file)| Some((path, FileKey::Mesh(file.location()?))));
             let named = pictures.chain(meshes).filter(|(_, key)| *key == known.key);
             named.map(|(path, key)| (path, Ok(key))).collect::<Vec<_>>()
@@ -161,12 +160,7 @@ fn stamps_of(key: &FileKey, content: Option<&FileContent>) -> Stamps {
     [key.file()].into_iter().chain(others.iter().map(PathBuf::as_path)).map(stamp).collect()
 }
 
-fn read(
-    key: FileKey,
-    stamps: Stamps,
-    mut budget: Budget,
-    ctx: &egui::Context,
-) -> (FileKey, Stamps, Receiver<Answer>) {
+fn read(key: FileKey, stamps: Stamps, mut budget: Budget, ctx: &egui::Context) -> (FileKey, Stamps, Receiver<Answer>) {
     let (sender, receiver) = channel();
     let (wanted, ctx) = (key.clone(), ctx.clone());
     std::thread::spawn(move || {
@@ -204,10 +198,14 @@ impl Watched {
         news.note();
         let start = |(folder, wanted): (&PathBuf, &BTreeSet<OsString>)| {
             let (noted, ctx, wanted) = (news.clone(), ctx.clone(), wanted.clone());
-            watch(folder, move |name| wanted.contains(name), move || {
-                noted.note();
-                ctx.request_repaint_after(QUIET);
-            })
+            watch(
+                folder,
+                move |name| wanted.contains(name),
+                move || {
+                    noted.note();
+                    ctx.request_repaint_after(QUIET);
+                },
+            )
         };
         self._watchers = names.iter().filter_map(start).collect();
         (self.names, self.news) = (names, news);

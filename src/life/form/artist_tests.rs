@@ -23,22 +23,17 @@ fn as_file(name: &str, seed: u32) -> Form {
 
 #[test]
 fn levels_of_files_cover_as_much_as_the_nearest() {
-    for (name, most) in [
-        ("Broadleaf tree", [0.08, 0.12]),
-        ("Conifer", [0.08, 0.12]),
-        ("Palm", [0.1, 0.2]),
-        ("Shrub", [0.08, 0.12]),
-        ("Dead tree", [0.15, 0.3]),
-        ("Boulder", [0.05, 0.08]),
-        ("Column cactus", [0.06, 0.12]),
-        ("Crystals", [0.08, 0.2]),
-        ("Grass", [0.1, 0.2]),
-    ] {
+    // Bare branches have nothing that could grow or thin out.
+    let most = |name: &str| if name == "Dead tree" { 0.2 } else { 0.08 };
+    let names =
+        ["Broadleaf tree", "Conifer", "Palm", "Shrub", "Dead tree", "Boulder", "Column cactus", "Crystals", "Grass"];
+    for name in names {
         let form = as_file(name, 3);
         let all = meshes(&form, 3);
         let near = sight::look_from(&all[0], 8, 64);
         for (level, mesh) in all.iter().enumerate() {
-            assert!(mesh.triangles.len() <= MOST[level] && mesh.triangles.len() >= 4, "{name} level {level}");
+            let count = mesh.triangles.len();
+            assert!((4..=MOST[level]).contains(&count), "{name} level {level}: {count}");
             let top = mesh.vertices.iter().fold(0.0_f32, |top, v| top.max(v.position.z));
             assert!((top - 1.0).abs() < 1e-3, "{name} level {level}: {top}");
             for v in &mesh.vertices {
@@ -47,8 +42,7 @@ fn levels_of_files_cover_as_much_as_the_nearest() {
             }
             let far = sight::look_from(mesh, 8, 64);
             let off = (far.cover / near.cover - 1.0).abs();
-            println!("{name} level {level}: {} triangles, cover off {off:.3}, {far:?}", mesh.triangles.len());
-            assert!(off <= most[usize::from(level == 3)], "{name} level {level}: {near:?} {far:?}");
+            assert!(off < most(name), "{name} level {level}: {near:?} {far:?}");
             assert!((far.part - near.part).abs() < 0.15, "{name} level {level}: {near:?} {far:?}");
             assert!((far.light - near.light).abs() < 0.15, "{name} level {level}: {near:?} {far:?}");
         }

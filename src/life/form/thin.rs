@@ -14,8 +14,6 @@ const SHARES: [f32; 2] = [0.3, 0.4];
 const KEPT: usize = 2;
 /// Triangles for each solid part, at least: the smallest parts are left out where there are fewer.
 const ROD: usize = 12;
-/// Half width of joined twigs, as a share of the cell.
-const TWIG: f32 = 0.35;
 /// Greatest factor on the width of loose parts.
 const GROWN: f32 = 8.0;
 
@@ -38,7 +36,9 @@ impl Thinned {
                 _ if is_same => v.position,
                 Some(middle) => *middle + detail.flatten((v.position - *middle) * detail.swell()),
                 None => {
-                    let wide = v.position + v.normal * ((detail.swell() - 1.0) * self.thickness);
+                    // To the sides alone: the height stays.
+                    let out = Vec3::new(v.normal.x, v.normal.y, 0.0);
+                    let wide = v.position + out * ((detail.swell() - 1.0) * self.thickness);
                     if has_loose { wide } else { detail.flatten(wide) }
                 }
             };
@@ -69,7 +69,8 @@ pub(super) fn thinned(fine: &Fine, most: usize) -> Thinned {
     } else {
         out.cluster(fine, &largest(fine, solid, for_solid / ROD), for_solid);
     }
-    out.thickness = thickness(&out.fine).max(out.thickness);
+    // Joined parts may be thicker than they were.
+    out.thickness = thickness(&out.fine);
     // What solid parts have not needed is there for loose ones.
     let left = most - out.fine.triangles.len().min(most);
     if is_all || of_loose <= left {
@@ -136,22 +137,14 @@ impl Thinned {
         if triangles.len() <= most {
             return self.copy(fine, triangles, None);
         }
-        let (mut small, mut large) = (1e-3_f32, 2.0_f32);
-        let (mut best, mut width) = (Fine::default(), 0.0);
-        for _ in 0..14 {
-            let side = (small * large).sqrt();
-            let joined = joined(fine, triangles, side);
-            if joined.triangles.len() <= most {
-                large = side;
-                if joined.triangles.len() >= best.triangles.len() {
-                    (best, width) = (joined, side);
-                }
-            } else {
-                small = side;
-            }
-        }
-        // Twigs become as thick as their cell.
-        self.thickness = TWIG * width;
+        // Few cells cannot tell sides apart.
+        let best = finest(fine, triangles, most, true);
+        let best = if 2 * best.triangles.len() < most {
+            let plain = finest(fine, triangles, most, false);
+            if plain.triangles.len() > best.triangles.len() { plain } else { best }
+        } else {
+            best
+        };
         let first = self.fine.vertices.len() as u32;
         self.middles.extend(best.vertices.iter().map(|_| None));
         self.fine.vertices.extend(best.vertices);
@@ -168,11 +161,31 @@ fn largest(fine: &Fine, parts: Vec<Vec<usize>>, most: usize) -> Vec<usize> {
     parts.into_iter().flat_map(|(_, part)| part).collect()
 }
 
-/// Triangles with one corner for each cell. Corners on other sides of a thin part stay apart, so that it keeps a width.
-fn joined(fine: &Fine, triangles: &[usize], side: f32) -> Fine {
+/// Triangles in the smallest cells that leave at most `most` of them.
+fn finest(fine: &Fine, triangles: &[usize], most: usize, are_apart: bool) -> Fine {
+    let (mut small, mut large) = (1e-3_f32, 4.0_f32);
+    let mut best = Fine::default();
+    for _ in 0..14 {
+        let side = (small * large).sqrt();
+        let joined = joined(fine, triangles, side, are_apart);
+        if joined.triangles.len() > most {
+            small = side;
+            continue;
+        }
+        large = side;
+        if joined.triangles.len() >= best.triangles.len() {
+            best = joined;
+        }
+    }
+    best
+}
+
+/// Triangles with one corner for each cell. `are_apart`: corners on other sides of a thin part stay apart, so that it
+/// keeps a width.
+fn joined(fine: &Fine, triangles: &[usize], side: f32, are_apart: bool) -> Fine {
     let key = |v: &Vertex| {
         let cell = (v.position / side).floor();
-        let sides = (v.normal.x > 0.0, v.normal.y > 0.0, v.part > 0.5);
+        let sides = (are_apart && v.normal.x > 0.0, are_apart && v.normal.y > 0.0, v.part > 0.5);
         (cell.x as i32, cell.y as i32, cell.z as i32, sides)
     };
     let mut cells = BTreeMap::new();
@@ -183,7 +196,8 @@ fn joined(fine: &Fine, triangles: &[usize], side: f32) -> Fine {
     for at in members {
         let v = &fine.vertices[at as usize];
         let place = *cells.entry(key(v)).or_insert_with(|| {
-            let none = Vertex { position: Vec3::ZERO, normal: Vec3::ZERO, tint: Vec3::ZERO, part: 0.0, light: 0.0, sway: 0.0 };
+            let none =
+                Vertex { position: Vec3::ZERO, normal: Vec3::ZERO, tint: Vec3::ZERO, part: 0.0, light: 0.0, sway: 0.0 };
             sums.push((none, 0.0));
             sums.len() as u32 - 1
         });

@@ -46,7 +46,8 @@ pub(super) fn decode(bytes: &[u8], fetch: &mut Fetch<'_>) -> Result<MeshData, St
     let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
         return Err("has no scene; export one with the mesh in it".to_owned());
     };
-    let mut walk = Walk { textures: &textures, buffers: &buffers, left: Left::all(), visited: 0, mixes: mixes(&document) };
+    let mut walk =
+        Walk { textures: &textures, buffers: &buffers, left: Left::all(), visited: 0, mixes: mixes(&document) };
     let nodes = scene.nodes().map(|top| walk.top(&top)).collect::<Result<Vec<_>, _>>()?;
     let nodes: Vec<MeshNode> = nodes.into_iter().filter(|node| !node.triangles.is_empty()).collect();
     check(&nodes)?;
@@ -203,7 +204,8 @@ impl<'a> Walk<'a> {
         let has_holes = material.alpha_mode() != AlphaMode::Opaque;
         let name = material.name().unwrap_or_default().to_lowercase();
         let texture = color.base_color_texture();
-        let texture = texture.and_then(|info| Some((self.textures.get(&info.texture().source().index())?, info.tex_coord())));
+        let texture =
+            texture.and_then(|info| Some((self.textures.get(&info.texture().source().index())?, info.tex_coord())));
         Paint {
             factor: Vec4::from_array(color.base_color_factor()).truncate(),
             texture,
@@ -226,9 +228,8 @@ fn check(nodes: &[MeshNode]) -> Result<(), String> {
         return Err("has nothing above its ground, which is at y = 0 in the file; move it up".to_owned());
     }
     for node in nodes {
-        let wide = |foot: Vec3| {
-            node.corners.iter().fold(0.0_f32, |most, corner| most.max((corner.position - foot).length()))
-        };
+        let wide =
+            |foot: Vec3| node.corners.iter().fold(0.0_f32, |most, corner| most.max((corner.position - foot).length()));
         let wide = wide(Vec3::ZERO).min(wide(node.foot.extend(0.0))) / top;
         if wide > MOST_WIDE {
             return Err(format!(

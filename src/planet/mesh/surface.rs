@@ -40,9 +40,10 @@ impl Left {
     }
 
     fn take_corners(&mut self, count: usize) -> Result<(), String> {
-        self.corners = self.corners.checked_sub(count).ok_or_else(|| {
-            format!("has more than {} corners; export a mesh with fewer", 4 * MAX_TRIANGLES)
-        })?;
+        self.corners = self
+            .corners
+            .checked_sub(count)
+            .ok_or_else(|| format!("has more than {} corners; export a mesh with fewer", 4 * MAX_TRIANGLES))?;
         Ok(())
     }
 
@@ -109,9 +110,10 @@ pub(super) fn add(
     let mut shared = Shared { out, corners, places: vec![None; places.len()], tints: Vec::new() };
     for [a, b, c] in triangles {
         let [a, b, c] = if mirrors { [a, c, b] } else { [a, b, c] }.map(|at| at as usize);
-        let seen = paint.texture.zip(on_picture.as_ref()).map(|((texture, _), on_picture)| {
-            texture.mean([a, b, c].map(|at| Vec2::from_array(on_picture[at])))
-        });
+        let seen = paint
+            .texture
+            .zip(on_picture.as_ref())
+            .map(|((texture, _), on_picture)| texture.mean([a, b, c].map(|at| Vec2::from_array(on_picture[at]))));
         let (tint, alpha) = seen.unwrap_or((Vec3::ONE, 1.0));
         shared.triangle([a, b, c], tint, if paint.has_holes { alpha } else { 1.0 });
     }
