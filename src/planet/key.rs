@@ -20,8 +20,8 @@ impl Key {
         Self(hash.0)
     }
 
-    /// The key of everything in a preset but the editor's own section, with the pixels of its pictures and the triangles
-    /// of its meshes. The same on every machine, wherever the preset is.
+    /// The key of everything in a preset but the editor's own section, with the pixels of its pictures and the
+    /// triangles of its meshes. The same on every machine, wherever the preset is.
     pub fn of_planet(planet: &Planet) -> Self {
         let bare = Planet { editor: None, ..planet.clone() };
         let pictures: Vec<_> = bare.pictures().map(|(_, file, extent)| file.picture(extent)).collect();

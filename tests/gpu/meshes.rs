@@ -52,7 +52,7 @@ fn colors(planet: &Arc<Planet>) -> [Vec<[f32; 3]>; 2] {
             let x = 0.5 * (1.0 + rel.x / (-rel.z * tan * wide / high)) * wide;
             let y = 0.5 * (1.0 - rel.y / (-rel.z * tan)) * high;
             let inside = rel.z < 0.0 && (1.0..wide - 1.0).contains(&x) && (1.0..high - 1.0).contains(&y);
-            inside.then_some(seen[y as usize * SIZE_PX[0] as usize + x as usize])
+            inside.then(|| seen[y as usize * SIZE_PX[0] as usize + x as usize])
         };
         let at = |height_m: f64| move |dir: glam::DVec3| dir * (500_000.0 + height_m);
         let near = found.iter().filter_map(|one| {

@@ -1,4 +1,5 @@
-//! Memory and work limits of the pictures and meshes of one planet, so that no preset exhausts either, whatever its files say.
+//! Memory and work limits of the pictures and meshes of one planet, so that no preset exhausts either, whatever its
+//! files say.
 //!
 //! - One picture has at most [`MAX_PIXELS`].
 //! - All pictures of a planet keep at most [`MAX_BYTES`] of pixels: two bytes for a pixel of a PNG, four for one of an
