@@ -73,7 +73,7 @@ fn share(colors: &[[f32; 3]], wanted: [f32; 3]) -> f64 {
 fn objects_have_the_colours_of_their_file() {
     let [low, high] = colors(&planet(FileMesh::default(), Some(post())));
     // Some stand before others.
-    assert!(share(&low, [0.6, 0.02, 0.02]) > 0.7, "{low:?}");
+    assert!(share(&low, [0.6, 0.02, 0.02]) > 0.5, "{low:?}");
     assert!(share(&high, [0.02, 0.02, 0.6]) > 0.7, "{high:?}");
 }
 
