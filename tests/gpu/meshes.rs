@@ -9,7 +9,7 @@ use tellus::planet::{Biome, Form, Planet, Population, Table};
 use tellus::render::DebugView;
 
 /// A grey sphere with posts 6 m high, the lower half of them red and the upper half blue.
-fn planet(form: FileMesh, bytes: Option<Vec<u8>>) -> Arc<Planet> {
+fn planet(own_colors: bool, bytes: Option<&[u8]>) -> Arc<Planet> {
     let life = vec![Population {
         per_hectare: 40.0,
         height_m: 6.0,
@@ -19,14 +19,14 @@ fn planet(form: FileMesh, bytes: Option<Vec<u8>>) -> Arc<Planet> {
         clumping: 0.0,
         color_spread: 0.0,
         color: [0.02, 0.6, 0.02],
-        form: Form::Mesh(FileMesh { file: "post.glb".to_owned().into(), ..form }),
+        form: Form::Mesh(FileMesh { file: "post.glb".to_owned().into(), own_colors, ..FileMesh::default() }),
         ..Population::default()
     }];
     let mut planet = Planet { radius_km: 500.0, life, ..Planet::default() };
     planet.biomes.palette = vec![Biome { color: [0.3; 3], variation: 0.0, ..Biome::default() }];
     planet.biomes.table = Table::uniform('a', 2, 2);
     (planet.biomes.snow, planet.biomes.beach_m) = (false, 0.0);
-    let problems = planet.load_pictures_from(|_| bytes.clone().ok_or_else(|| "it is missing".to_owned()));
+    let problems = planet.load_pictures_from(|_| bytes.map(<[u8]>::to_vec).ok_or_else(|| "it is missing".to_owned()));
     assert_eq!(problems.is_empty(), bytes.is_some(), "{problems:?}");
     Arc::new(planet)
 }
@@ -71,7 +71,7 @@ fn share(colors: &[[f32; 3]], wanted: [f32; 3]) -> f64 {
 
 #[test]
 fn objects_have_the_colours_of_their_file() {
-    let [low, high] = colors(&planet(FileMesh::default(), Some(post())));
+    let [low, high] = colors(&planet(true, Some(&post())));
     // Some stand before others.
     assert!(share(&low, [0.6, 0.02, 0.02]) > 0.5, "{low:?}");
     assert!(share(&high, [0.02, 0.02, 0.6]) > 0.7, "{high:?}");
@@ -79,7 +79,7 @@ fn objects_have_the_colours_of_their_file() {
 
 #[test]
 fn objects_have_the_colours_of_their_population_if_it_asks() {
-    let [low, high] = colors(&planet(FileMesh { own_colors: false, ..FileMesh::default() }, Some(post())));
+    let [low, high] = colors(&planet(false, Some(&post())));
     for seen in [low, high] {
         assert!(share(&seen, [0.02, 0.6, 0.02]) > 0.7, "{seen:?}");
     }
@@ -87,7 +87,7 @@ fn objects_have_the_colours_of_their_population_if_it_asks() {
 
 #[test]
 fn a_plain_form_stands_where_the_mesh_is_missing() {
-    let [low, high] = colors(&planet(FileMesh::default(), None));
+    let [low, high] = colors(&planet(true, None));
     for seen in [low, high] {
         assert!(share(&seen, [0.02, 0.6, 0.02]) > 0.7, "{seen:?}");
     }
