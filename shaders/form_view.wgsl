@@ -34,6 +34,7 @@ struct Vertex {
     @location(0) position: vec3f,
     @location(1) normal: vec4f,
     @location(2) look: vec4f,
+    @location(3) tint: vec4f,
 }
 
 struct Surface {
@@ -41,6 +42,7 @@ struct Surface {
     @location(0) place: vec3f,
     @location(1) normal: vec3f,
     @location(2) look: vec2f,
+    @location(3) tint: vec3f,
 }
 
 // Colour of a radiance, as the picture of the planet has it: encoded for a display.
@@ -53,7 +55,8 @@ fn shown(radiance: vec3f) -> vec4f {
 
 @vertex
 fn vertex(in: Vertex) -> Surface {
-    return Surface(view.clip_from_form * vec4f(in.position, 1.0), in.position, in.normal.xyz, in.look.xy);
+    let tint = in.tint.rgb * (255.0 / 128.0);
+    return Surface(view.clip_from_form * vec4f(in.position, 1.0), in.position, in.normal.xyz, in.look.xy, tint * tint);
 }
 
 @fragment
@@ -68,7 +71,7 @@ fn fragment(in: Surface) -> @location(0) vec4f {
     let front = max((facing + soft) / (1.0 + soft), 0.0) / (1.0 + 0.5 * soft);
     let lit = (front + TRANSLUCENT * leaf * max(-facing, 0.0)) * smoothstep(0.0, 0.75, in.look.y);
     let open = (0.5 + 0.5 * n.z) * in.look.y;
-    let albedo = mix(view.first, view.second, leaf) * material.tint;
+    let albedo = mix(view.first, view.second, leaf) * material.tint * in.tint;
     let from_below = FLOOR * (SUN * view.to_sun.z + SKY) * (1.0 - open) * in.look.y;
     return shown(albedo * (SUN * lit + SKY * open + from_below) / PI);
 }

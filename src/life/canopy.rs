@@ -31,9 +31,10 @@ const LET_THROUGH: f64 = 0.72;
 fn through_leaves(population: &Population) -> [f64; 3] {
     let has_leaves = match &population.form {
         Form::Tree(tree) => tree.leaves > 0.0,
+        Form::Mesh(form) => form.file.mesh().is_some_and(|mesh| mesh.has_leaves),
         form => matches!(form, Form::Conifer(_) | Form::Palm(_) | Form::Tuft(_)),
     };
-    population.leaf_color.map(|channel| if has_leaves { LET_THROUGH * channel } else { 0.0 })
+    population.colors()[1].map(|channel| if has_leaves { LET_THROUGH * channel } else { 0.0 })
 }
 
 /// What a population covers of the ground where everything suits it.
@@ -67,13 +68,14 @@ impl CanopyLayer {
         let per_m2 = population.per_hectare / HECTARE_M2;
         let shown = 1.0 - population.sunk;
         let mix = |wood: f64, leaf: f64| wood + (leaf - wood) * cover.part;
+        let [wood_color, leaf_color] = population.colors();
         Self {
             top: per_m2 * cover.top * square_m2,
             side: per_m2 * cover.side * square_m2 * shown,
             height_m: population.height_m * shown,
             width_m: (4.0 * cover.top * square_m2 / std::f64::consts::PI).sqrt(),
-            color: std::array::from_fn(|c| mix(population.color[c], population.leaf_color[c])),
-            litter: (std::array::from_fn(|c| LITTER_OF[c] * population.color[c]), population.litter),
+            color: std::array::from_fn(|c| mix(wood_color[c], leaf_color[c])),
+            litter: (std::array::from_fn(|c| LITTER_OF[c] * wood_color[c]), population.litter),
             through: through_leaves(population),
             casting: ((population.height_m - CASTING_M[0]) / (CASTING_M[1] - CASTING_M[0])).clamp(0.0, 1.0),
             cover: *cover,

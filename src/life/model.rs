@@ -26,9 +26,12 @@ impl Model {
 
     /// Makes the meshes of a population, on all cores.
     pub fn new(population: &Population) -> Self {
-        let variants = (0..Form::VARIANTS).into_par_iter();
+        // Objects of one shape are made once.
+        let count = if population.form.has_variants() { Form::VARIANTS } else { 1 };
+        let variants = (0..count).into_par_iter();
         let variants = variants.map(|variant| form::meshes(&population.form, seed(population, variant)));
         let variants: Vec<_> = variants.collect();
+        let variants: Vec<_> = variants.iter().cycle().take(Form::VARIANTS as usize).cloned().collect();
         // Variants differ little: one is measured.
         let level_light = variants.first().map_or([1.0; form::LEVELS], form::level_light);
         let vertices = variants.iter().flatten().flat_map(|mesh| &mesh.vertices);
@@ -42,7 +45,22 @@ impl Model {
     }
 }
 
-/// Seed of a variant of a population's form.
+/// Seed of a variant of a population's form. The lowest two bits differ from variant to variant.
 pub(super) fn seed(population: &Population, variant: u32) -> u32 {
     population.seed.wrapping_mul(0x9E37_79B1) ^ variant.wrapping_mul(0x85EB_CA77)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seeds_of_variants_differ_in_their_lowest_bits() {
+        for own in [0, 1, 77, u32::MAX] {
+            let population = Population { seed: own, ..Population::default() };
+            let mut lowest: Vec<u32> = (0..Form::VARIANTS).map(|v| seed(&population, v) % Form::VARIANTS).collect();
+            lowest.sort_unstable();
+            assert_eq!(lowest, [0, 1, 2, 3], "{own}");
+        }
+    }
 }

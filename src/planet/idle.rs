@@ -5,8 +5,8 @@ use super::layers::Blend;
 use super::param::{ParamPath, Segment};
 use super::shapes::CellStyle;
 use super::{
-    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Giant, GroundEdit, Layer, Planet, Population, Rings, Shape,
-    Steep, Structure, TableRows, Tool, Water,
+    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Form, Giant, GroundEdit, Layer, Planet, Population, Rings,
+    Shape, Steep, Structure, TableRows, Tool, Water,
 };
 
 const ONE_COPY: &str = "There is one copy only";
@@ -51,6 +51,10 @@ impl Planet {
     fn population_idle(&self, population: &Population, name: &str) -> Idle {
         match name {
             "clump_m" => when(population.clumping <= 0.0, "Nothing is drawn together into groups"),
+            "color" | "leaf_color" if matches!(&population.form, Form::Mesh(form) if form.own_colors) => {
+                Some("The objects have the colours of their file")
+            }
+            "leaf_color" if matches!(population.form, Form::Game(_)) => Some("What a game draws has one colour here"),
             "shore_m" if population.in_water => Some("The objects stand in water, too"),
             "shore_m" | "in_water" => when(self.water.is_none() && self.structure.is_none(), "There is no water"),
             _ => None,

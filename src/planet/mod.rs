@@ -20,7 +20,7 @@
 //! - [`structure`]: plates, weather and rivers of a preset
 //! - [`life`]: populations of plants, stones and other objects
 //! - [`edits`]: changes of the ground at a place, made by hand
-//! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
+//! - [`linked`]: references to files; [`picture`] and [`mesh`]: those files; `pictures`: all those of a planet
 //! - [`watch`]: a preset that changes on disk while a game runs
 //! - [`shipped`]: the presets that come with the program
 //! - `idle`: parameters that have no effect where the others stand
@@ -42,9 +42,11 @@ pub mod key;
 pub(crate) mod kinds;
 pub mod layers;
 pub mod life;
+pub mod linked;
 pub(crate) mod locate;
 pub mod locks;
 pub mod masks;
+pub mod mesh;
 pub(crate) mod migrate;
 pub mod notes;
 pub(crate) mod open;
@@ -86,6 +88,7 @@ pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, PaintedMask, SlopeMas
 pub use notes::{Bookmark, EditorNotes};
 pub use parts::{Atmosphere, Biomes, CLIMATE_BELTS, Climate, Clouds, Star, TableBlend, TableRows, Water};
 pub use picture::PictureLayout;
+pub use pictures::{FileContent, FileKey};
 pub use problem::Problem;
 pub use rings::{Rings, STARTING_RINGS};
 pub use seas::STARTING_SEAS;

@@ -1,10 +1,73 @@
-//! The pictures of a planet: where it refers to them, and reading those that are missing.
+//! The pictures and meshes of a planet: where it refers to them, and reading those that are missing.
 
+use super::life::{Form, population_path};
+use super::mesh::{self, MeshData, MeshFile};
 use super::param::{ParamPath, Segment};
 use super::picture::{Budget, Picture, PictureExtent, PictureFile, PictureKey};
 use super::{Planet, Shape, Tool, edits};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// The source of a file that a planet refers to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileKey {
+    /// A picture of heights.
+    Picture(PictureKey),
+    /// The mesh of a population.
+    Mesh(PathBuf),
+}
+
+/// What was read from a file that a planet refers to. Clones share it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FileContent {
+    /// Pixels.
+    Picture(Arc<Picture>),
+    /// Triangles.
+    Mesh(Arc<MeshData>),
+}
+
+impl FileContent {
+    /// The files that belong to it, beside the one that the planet names.
+    pub fn others(&self) -> &[PathBuf] {
+        match self {
+            FileContent::Picture(_) => &[],
+            FileContent::Mesh(mesh) => mesh.others(),
+        }
+    }
+}
+
+impl FileKey {
+    /// Where the file is.
+    pub fn file(&self) -> &Path {
+        match self {
+            FileKey::Picture(key) => &key.file,
+            FileKey::Mesh(file) => file,
+        }
+    }
+
+    /// Reads the file, or shares a picture in use. Its size is taken from the budget of the planet.
+    ///
+    /// # Errors
+    /// What is wrong with the file, and what would be right.
+    pub fn load(&self, budget: &mut Budget) -> Result<FileContent, String> {
+        match self {
+            FileKey::Picture(key) => key.load(budget).map(FileContent::Picture),
+            FileKey::Mesh(file) => mesh::load(file, budget).map(FileContent::Mesh),
+        }
+    }
+
+    fn decode(
+        &self,
+        fetch: &mut impl FnMut(&Path) -> Result<Vec<u8>, String>,
+        budget: &mut Budget,
+    ) -> Result<FileContent, String> {
+        let bytes = fetch(self.file())?;
+        match self {
+            FileKey::Picture(key) => key.decode(&bytes, budget).map(FileContent::Picture),
+            FileKey::Mesh(file) => mesh::decoded(file, &bytes, fetch, budget).map(FileContent::Mesh),
+        }
+    }
+}
 
 impl Planet {
     /// Calls `visit` for each reference to a picture, to be changed.
@@ -36,84 +99,142 @@ impl Planet {
         of_layers.chain(of_edits)
     }
 
+    /// Calls `visit` for each reference to a mesh, to be changed.
+    pub fn each_mesh(&mut self, mut visit: impl FnMut(ParamPath, &mut MeshFile)) {
+        for (index, population) in self.life.iter_mut().enumerate() {
+            if let Form::Mesh(form) = &mut population.form {
+                visit(path_in_population(index), &mut form.file);
+            }
+        }
+    }
+
+    /// All references to meshes.
+    pub fn meshes(&self) -> impl Iterator<Item = (ParamPath, &MeshFile)> {
+        self.life.iter().enumerate().filter_map(|(index, population)| match &population.form {
+            Form::Mesh(form) => Some((path_in_population(index), &form.file)),
+            _ => None,
+        })
+    }
+
+    /// The sources of all files that the planet refers to, and what was read of them: pictures first.
+    pub fn linked_files(&self) -> impl Iterator<Item = (FileKey, Option<FileContent>)> {
+        let pictures = self.pictures().filter_map(|(_, file, extent)| {
+            Some((FileKey::Picture(file.key(extent)?), file.picture(extent).cloned().map(FileContent::Picture)))
+        });
+        let meshes = self.meshes().filter_map(|(_, file)| {
+            Some((FileKey::Mesh(file.location()?), file.mesh().cloned().map(FileContent::Mesh)))
+        });
+        pictures.chain(meshes)
+    }
+
+    /// Where all files are that the planet refers to, with those that meshes name.
+    pub(crate) fn linked_paths(&self) -> Vec<PathBuf> {
+        let paths = self.linked_files().flat_map(|(key, content)| {
+            let others = content.iter().flat_map(FileContent::others).cloned().collect::<Vec<_>>();
+            others.into_iter().chain([key.file().to_owned()])
+        });
+        paths.collect()
+    }
+
     /// Relative paths without a folder become relative to this one.
     pub fn set_folder(&mut self, folder: &Path) {
         // Edits stay shared where there is nothing to change.
-        if self.pictures().all(|(_, file, _)| file.has_folder()) {
-            return;
+        if self.pictures().any(|(_, file, _)| !file.has_folder()) {
+            self.each_picture(|_, file, _| file.set_folder(folder));
         }
-        self.each_picture(|_, file, _| file.set_folder(folder));
+        self.each_mesh(|_, file| file.set_folder(folder));
     }
 
     /// The same planet with its paths rewritten for a preset in this folder.
     pub fn moved_to(&self, folder: &Path) -> Planet {
         let mut planet = self.clone();
         planet.each_picture(|_, file, _| file.move_to(folder));
+        planet.each_mesh(|_, file| file.move_to(folder));
         planet
     }
 
-    /// The pictures that are not loaded yet: the path of the parameter, and the source or why there is none.
-    pub fn missing_pictures(&self) -> Vec<(ParamPath, Result<PictureKey, String>)> {
-        let missing =
+    /// The pictures and meshes that are not loaded yet: the path of the parameter, and the source or why there is none.
+    pub fn missing_files(&self) -> Vec<(ParamPath, Result<FileKey, String>)> {
+        let source = |written: &str, key: Option<FileKey>| {
+            key.ok_or_else(|| {
+                format!("{written:?} is relative to the preset's folder, and there is none yet; use an absolute path")
+            })
+        };
+        let pictures =
             self.pictures().filter(|(_, file, extent)| !file.path().is_empty() && file.picture(*extent).is_none());
-        let sources = missing.map(|(path, file, extent)| {
-            let nowhere = || {
-                let path = file.path();
-                format!("{path:?} is relative to the preset's folder, and there is none yet; use an absolute path")
-            };
-            (path, file.key(extent).ok_or_else(nowhere))
-        });
-        sources.collect()
+        let pictures =
+            pictures.map(|(path, file, extent)| (path, source(file.path(), file.key(extent).map(FileKey::Picture))));
+        let meshes = self.meshes().filter(|(_, file)| !file.path().is_empty() && file.mesh().is_none());
+        let meshes = meshes.map(|(path, file)| (path, source(file.path(), file.location().map(FileKey::Mesh))));
+        pictures.chain(meshes).collect()
     }
 
-    /// Gives pixels to every reference to their source.
-    pub fn give_picture(&mut self, key: &PictureKey, picture: &Arc<Picture>) {
-        self.each_picture(|_, file, extent| {
-            if file.key(extent).as_ref() == Some(key) {
-                file.give(key, picture);
-            }
-        });
+    /// Gives content to every reference to its source.
+    pub fn give_file(&mut self, key: &FileKey, content: &FileContent) {
+        match (key, content) {
+            (FileKey::Picture(key), FileContent::Picture(picture)) => self.each_picture(|_, file, extent| {
+                if file.key(extent).as_ref() == Some(key) {
+                    file.give(key, picture);
+                }
+            }),
+            (FileKey::Mesh(key), FileContent::Mesh(mesh)) => self.each_mesh(|_, file| {
+                if file.location().as_ref() == Some(key) {
+                    file.give(key, mesh);
+                }
+            }),
+            _ => {}
+        }
     }
 
-    /// The budget that is left for missing pictures.
-    pub fn picture_budget(&self) -> Budget {
+    /// The budget that is left for missing pictures and meshes.
+    pub fn file_budget(&self) -> Budget {
+        self.budget_beside(None)
+    }
+
+    /// The budget that is left for a file that is read again, or for a missing one.
+    pub(crate) fn budget_beside(&self, again: Option<&FileKey>) -> Budget {
         let mut budget = Budget::default();
-        for picture in self.pictures().filter_map(|(_, file, extent)| file.picture(extent)) {
-            // A planet beyond the budget only gets no further picture.
-            let _ = budget.keep(picture);
+        for (_, content) in self.linked_files().filter(|(key, _)| again != Some(key)) {
+            // A planet beyond the budget only gets no further file.
+            let _ = match content {
+                Some(FileContent::Picture(picture)) => budget.keep(&picture),
+                Some(FileContent::Mesh(mesh)) => budget.keep_mesh(mesh.hash(), mesh.triangles()),
+                None => Ok(()),
+            };
         }
         budget
     }
 
-    /// Reads all missing pictures. Returns what is wrong with those that could not be read; their layers stay flat,
-    /// their stamps do nothing.
+    /// Reads all missing pictures and meshes. Returns what is wrong with those that could not be read; their layers
+    /// stay flat, their stamps do nothing, their populations stand with a plain form.
     pub fn load_pictures(&mut self) -> Vec<(ParamPath, String)> {
-        self.load_pictures_with(PictureKey::load)
+        self.load_pictures_with(FileKey::load)
     }
 
-    /// As [`Planet::load_pictures`], from the bytes of PNG or OpenEXR files that `fetch` gives for paths as they are
-    /// written in the preset. Files on the disk are not touched. See [`Planet::from_pack`].
+    /// As [`Planet::load_pictures`], from the bytes of files that `fetch` gives for paths as they are written in the
+    /// preset, and for those of buffers and pictures that a mesh names. Files on the disk are not touched. See
+    /// [`Planet::from_pack`].
     pub fn load_pictures_from(
         &mut self,
         mut fetch: impl FnMut(&Path) -> Result<Vec<u8>, String>,
     ) -> Vec<(ParamPath, String)> {
         self.set_folder(Path::new(""));
-        self.load_pictures_with(|key, budget| key.decode(&fetch(&key.file)?, budget))
+        self.load_pictures_with(|key, budget| key.decode(&mut fetch, budget))
     }
 
     fn load_pictures_with(
         &mut self,
-        mut load: impl FnMut(&PictureKey, &mut Budget) -> Result<Arc<Picture>, String>,
+        mut load: impl FnMut(&FileKey, &mut Budget) -> Result<FileContent, String>,
     ) -> Vec<(ParamPath, String)> {
-        let mut budget = self.picture_budget();
+        let mut budget = self.file_budget();
         // A file that failed for one layer is not tried again for the next.
-        let mut failed: Vec<(PictureKey, String)> = Vec::new();
+        let mut failed: Vec<(FileKey, String)> = Vec::new();
         let mut problems = Vec::new();
-        for (path, key) in self.missing_pictures() {
+        for (path, key) in self.missing_files() {
             let loaded = key.and_then(|key| match failed.iter().find(|(other, _)| *other == key) {
                 Some((_, problem)) => Err(problem.clone()),
                 None => match load(&key, &mut budget) {
-                    Ok(picture) => Ok((key, picture)),
+                    Ok(content) => Ok((key, content)),
                     Err(problem) => {
                         failed.push((key, problem.clone()));
                         Err(problem)
@@ -121,7 +242,7 @@ impl Planet {
                 },
             });
             match loaded {
-                Ok((key, picture)) => self.give_picture(&key, &picture),
+                Ok((key, content)) => self.give_file(&key, &content),
                 Err(problem) => problems.push((path, problem)),
             }
         }
@@ -138,4 +259,9 @@ fn path_in(layer: usize) -> ParamPath {
 /// Path of the picture in a ground edit.
 fn path_in_edit(index: usize) -> ParamPath {
     edits::edit_path(index).join("tool").join("file")
+}
+
+/// Path of the mesh of a population.
+fn path_in_population(index: usize) -> ParamPath {
+    population_path(index).join("form").join("file")
 }

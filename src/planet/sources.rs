@@ -17,7 +17,7 @@ struct Source {
 }
 
 impl Sources {
-    /// The files of a planet: its preset, the file of its edits and its pictures.
+    /// The files of a planet: its preset, the file of its edits, its pictures and meshes.
     pub fn of_preset(preset: &Path, planet: &Planet) -> Self {
         let mut sources = Self::of_planet(planet);
         sources.add(preset, "the preset");
@@ -27,11 +27,16 @@ impl Sources {
         sources
     }
 
-    /// The pictures of a planet, whose preset may have no file.
+    /// The pictures and meshes of a planet, whose preset may have no file.
     pub fn of_planet(planet: &Planet) -> Self {
         let mut sources = Self::default();
-        for file in planet.pictures().filter_map(|(_, file, _)| file.location()) {
-            sources.add(&file, "a picture that the planet reads");
+        let pictures: Vec<PathBuf> = planet.pictures().filter_map(|(_, file, _)| file.location()).collect();
+        for file in planet.linked_paths() {
+            let is_picture = pictures.contains(&file);
+            sources.add(
+                &file,
+                if is_picture { "a picture that the planet reads" } else { "a mesh that the planet reads" },
+            );
         }
         sources
     }

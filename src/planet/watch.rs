@@ -1,12 +1,11 @@
 //! Hot reload: a preset that changes on disk while a game runs.
 
-use super::picture::PictureKey;
 use super::{LoadError, Planet, beside};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Watches the file of a preset, and the pictures and the edits file that it refers to.
+/// Watches the file of a preset, and the pictures, meshes and the edits file that it refers to.
 ///
 /// It looks at dates and lengths when it is asked, needs no thread, and works on network drives. A game asks in every
 /// frame and gives the planet to its [`Builder`](crate::tiles::Builder), which rebuilds what the change touches.
@@ -40,8 +39,14 @@ impl PresetWatch {
     pub fn every(path: impl AsRef<Path>, interval: Duration) -> Self {
         let path = path.as_ref().to_owned();
         // The files of a preset that cannot be read yet are known once it can.
-        let pictures = Planet::open(&path).map(|planet| pictures(&planet)).unwrap_or_default();
-        let files = FileWatch::new(files_of(&path, pictures), interval);
+        // Only the document of a mesh names the files beside it.
+        let named = Planet::open(&path).map(|mut planet| {
+            if planet.meshes().next().is_some() {
+                planet.load_pictures();
+            }
+            planet.linked_paths()
+        });
+        let files = FileWatch::new(files_of(&path, named.unwrap_or_default()), interval);
         Self { path, files }
     }
 
@@ -61,7 +66,7 @@ impl PresetWatch {
         }
         // The preset may refer to other files now.
         if let Ok(planet) = &planet {
-            self.files.follow(files_of(&self.path, pictures(planet)));
+            self.files.follow(files_of(&self.path, planet.linked_paths()));
         }
         Some(planet)
     }
@@ -123,15 +128,9 @@ impl FileWatch {
     }
 }
 
-/// The pictures that a preset refers to.
-pub(crate) fn pictures(planet: &Planet) -> Vec<PathBuf> {
-    let keys = planet.pictures().filter_map(|(_, file, extent)| file.key(extent));
-    keys.map(|PictureKey { file, .. }| file).collect()
-}
-
-/// A preset, its pictures, and the file of its edits if it has one.
-fn files_of(preset: &Path, pictures: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
-    pictures.into_iter().chain([preset.to_owned()]).chain(beside::of_preset(preset))
+/// A preset, the files that it names, and that of its edits if it has one.
+fn files_of(preset: &Path, named: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
+    named.into_iter().chain([preset.to_owned()]).chain(beside::of_preset(preset))
 }
 
 fn look(files: impl IntoIterator<Item = PathBuf>) -> Files {

@@ -2,7 +2,7 @@
 
 use super::System;
 use crate::planet::picture::folder_of;
-use crate::planet::watch::{FileWatch, PresetWatch, pictures};
+use crate::planet::watch::{FileWatch, PresetWatch};
 use crate::planet::{LoadError, Planet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use std::time::Duration;
 /// A system and the planet of each of its bodies, as [`System::load_planets`] gives them.
 pub type Loaded = (System, Vec<Option<Arc<Planet>>>);
 
-/// Watches a system file, the presets that it names and the pictures that they refer to.
+/// Watches a system file, the presets that it names, and the pictures and meshes that they refer to.
 ///
 /// As [`PresetWatch`], it looks at dates and lengths when it is asked, and needs no thread.
 #[derive(Debug)]
@@ -72,8 +72,8 @@ fn load(path: &Path) -> Result<Loaded, LoadError> {
 fn files(path: &Path, system: &System, planets: &[Option<Arc<Planet>>]) -> Vec<PathBuf> {
     let presets = system.bodies.iter().filter(|body| !body.preset.is_empty());
     let presets = presets.map(|body| folder_of(path).join(&body.preset));
-    let pictures = planets.iter().flatten().flat_map(|planet| pictures(planet));
-    presets.chain(pictures).chain([path.to_owned()]).collect()
+    let named = planets.iter().flatten().flat_map(|planet| planet.linked_paths());
+    presets.chain(named).chain([path.to_owned()]).collect()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //! - `disk`: disks that are full or read-only
 //! - `sets`: sets of files: damaged, finished, incomplete; threads and progress
 //! - `readback`: every map, format and projection
-//! - `instances`: plants and stones of a region
+//! - `instances`: plants and stones of a region; `meshes`: meshes of artists
 //! - `rivers`: rivers as GeoJSON, many points
 //! - `outputs`: outputs that are inputs, links, addresses; nothing is lost
 //! - `mesh`: meshes against `tellus sample`
@@ -32,6 +32,7 @@ mod house;
 mod instances;
 mod interface;
 mod mesh;
+mod meshes;
 #[cfg(unix)]
 mod outputs;
 mod readback;
@@ -42,6 +43,8 @@ mod system;
 
 #[path = "../support/dice.rs"]
 mod dice;
+#[path = "../support/glb.rs"]
+mod glb;
 
 /// A planet without a structure: there are no maps to solve.
 const LAYERED: &str = "tests/fixtures/layered.ron";

@@ -218,7 +218,7 @@ fn a_picture_that_is_wrong_is_told_with_its_place_and_loses_no_work() {
 #[test]
 fn a_height_map_without_a_file_is_valid_and_flat() {
     let planet = Planet::from_text("p.ron", &format!("(version: {VERSION}, layers: [(shape: HeightMap())])")).unwrap();
-    assert!(planet.missing_pictures().is_empty());
+    assert!(planet.missing_files().is_empty());
     let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
     assert_eq!((terrain.height_m(DVec3::X), terrain.height_bounds_m()), (0.0, (0.0, 0.0)));
 }

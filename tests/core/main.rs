@@ -13,6 +13,7 @@
 //! - `rivers`: water on the whole course of rivers
 //! - `physics`, `ground`, `walker`: contacts, sweeps, and those who walk
 //! - `system`: orbits and resonances; `trial`: what trials of systems find
+//! - `meshes`: meshes of artists that populations have
 //! - `life`: what stands on the ground; `lie`: by water, ridges and hollows; `planting`: by hand; `solid`: what of it
 //!   is hit
 //! - `water`: rivers, lakes and weather of a structure
@@ -37,6 +38,7 @@ mod lie;
 mod life;
 mod lod;
 mod masks;
+mod meshes;
 mod nonsense;
 mod paint;
 mod physics;
@@ -66,6 +68,7 @@ mod words;
 mod support {
     pub mod dice;
     pub mod edits;
+    pub mod glb;
     pub mod layered;
     pub mod png;
 }

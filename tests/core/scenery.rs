@@ -1,15 +1,15 @@
 //! Objects that a view draws are those that queries answer, on shipped planets.
 
 use crate::support::dice::Dice;
-use crate::support::{preset, settled, terrain};
 use glam::DVec3;
 use std::sync::Arc;
+use std::time::Duration;
 use tellus::life::Instance;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, shipped};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
-use tellus::tiles::Builder;
+use tellus::tiles::{Builder, Surface};
 
 /// Height of the eye over the ground, metres.
 const EYE_M: f64 = 2.0;
@@ -41,6 +41,15 @@ fn queried(whole: &Terrain, population: usize, dir: DVec3, radius_m: f64) -> Vec
     let mut told: Vec<Told> = told.collect();
     told.sort_unstable();
     told
+}
+
+/// Surface of a view, after the builder has finished.
+fn settled(builder: &Builder, planet: &Arc<Planet>, view: &View) -> Arc<Surface> {
+    builder.request(planet, view).unwrap();
+    while builder.is_busy() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    builder.surface().unwrap()
 }
 
 /// Compares both sides around a place; gives the number of objects.
@@ -79,7 +88,7 @@ fn compare(builder: &Builder, terrain: &Terrain, place: LatLon, quality: Quality
 fn compare_objects(planets: impl Iterator<Item = Planet>, wanted: usize, quality: Quality) {
     let planets = planets.filter(|planet| !planet.life.is_empty());
     let sides: Vec<(Builder, Arc<Terrain>)> =
-        planets.map(|planet| (Builder::new(|| {}), terrain(&Arc::new(planet)))).collect();
+        planets.map(|planet| (Builder::new(|| {}), Arc::new(Terrain::try_new(planet.into()).unwrap()))).collect();
     let (mut dice, mut compared) = (Dice(57), 0);
     while compared < wanted {
         for (builder, terrain) in &sides {
@@ -90,7 +99,7 @@ fn compare_objects(planets: impl Iterator<Item = Planet>, wanted: usize, quality
 }
 
 fn all() -> impl Iterator<Item = Planet> {
-    shipped::ALL.iter().map(|shipped| preset(shipped.file))
+    shipped::ALL.iter().map(|shipped| shipped.load().unwrap())
 }
 
 #[test]

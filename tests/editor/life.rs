@@ -1,12 +1,14 @@
 //! The life tab: populations are added, changed, moved and removed, each in one undo step, and painted by hand.
 
-use crate::app::{self, Editor, click, planet, send, undo_label};
+use crate::app::{self, Editor, click, planet, send, undo_label, until};
+use crate::glb::{block, glb, tree};
 use crate::{press, sculpt};
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use tellus::editor::command::Command;
 use tellus::planet::edits::{LifePaint, Tool};
-use tellus::planet::{Planet, Population};
+use tellus::planet::life::FileMesh;
+use tellus::planet::{Form, Planet, Population};
 use tellus::render::DebugView;
 
 fn open() -> Editor {
@@ -251,4 +253,38 @@ fn equal_seeds_are_told_and_what_is_added_has_a_free_one() {
     add(&mut harness, "Birch");
     let seeds: std::collections::HashSet<u32> = planet(&harness).life.iter().map(|one| one.seed).collect();
     assert_eq!((planet(&harness).life.len(), seeds.len()), (4, 3));
+}
+
+/// A mesh is chosen by the dialog of files, read, and read again when its file is saved again; undo keeps the newest.
+#[test]
+fn a_mesh_is_chosen_and_follows_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("oak.glb");
+    std::fs::write(&file, glb(&tree())).unwrap();
+    let form = Form::Mesh(FileMesh::default());
+    let life = vec![Population { name: "Oak".to_owned(), form, ..Population::default() }];
+    let planet = Planet { life, ..Planet::default() };
+    let mut harness = app::open_planet_with_answers([1280.0, 1800.0], planet, vec![Some(file.clone())]);
+    let triangles = |harness: &Editor| match &harness.state().document().planet().life[0].form {
+        Form::Mesh(form) => form.file.mesh().map(|mesh| mesh.triangles()),
+        _ => None,
+    };
+    click(&mut harness, "Life");
+    assert_eq!(triangles(&harness), None);
+    click(&mut harness, "Browse…");
+    assert_eq!(undo_label(&harness), "Choose mesh");
+    until(&mut harness, "the mesh is read", |harness| triangles(harness) == Some(24));
+    std::fs::write(&file, glb(&[block([1.0, 2.0, 1.0], 0.0, [0.4; 3])])).unwrap();
+    until(&mut harness, "the mesh is read again", |harness| triangles(harness) == Some(12));
+    send(&mut harness, Command::Undo);
+    send(&mut harness, Command::Redo);
+    until(&mut harness, "the newest mesh is there", |harness| triangles(harness) == Some(12));
+    // What cannot be read is told, and the last mesh stays.
+    std::fs::write(&file, "no mesh").unwrap();
+    until(&mut harness, "the problem is told", |harness| {
+        harness.query_all_by_label_contains("is no glTF 2.0 file").next().is_some()
+    });
+    assert_eq!(triangles(&harness), Some(12));
+    std::fs::write(&file, glb(&tree())).unwrap();
+    until(&mut harness, "the mesh is read once more", |harness| triangles(harness) == Some(24));
 }

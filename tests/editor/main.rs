@@ -37,6 +37,8 @@ mod edits;
 mod files;
 mod finder;
 mod finding;
+#[path = "../support/glb.rs"]
+mod glb;
 #[path = "../support/heap.rs"]
 mod heap;
 mod history;

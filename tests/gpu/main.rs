@@ -9,6 +9,7 @@
 //! - `cloud_edges`: clouds near the horizon: stairs and stripes
 //! - `cloud_light`: light under clouds: rain, fog, night
 //! - `lakes`: water of planets with a structure
+//! - `meshes`: meshes of artists as objects
 //! - `life`: objects on the ground and their shadows; `planting`: what strokes clear and plant of them, from afar;
 //!   `density`: how many stand where, as a picture; `forms`: pictures of single forms
 //! - `neighbours`: shadows and light between bodies, rings
@@ -39,6 +40,7 @@ mod lakes;
 mod life;
 mod lod_pictures;
 mod materials;
+mod meshes;
 mod neighbours;
 mod night;
 mod photo;
@@ -53,5 +55,7 @@ mod shadows;
 mod shimmer;
 mod sky;
 
+#[path = "../support/glb.rs"]
+mod glb;
 #[path = "../support/mod.rs"]
 mod support;

@@ -11,7 +11,7 @@ use crate::bake::sidecar::{MADE_BY, of_planet};
 use crate::life::form::{Mesh, Vertex};
 use crate::life::{Instance, Model};
 use crate::planet::file::write_atomically_with;
-use crate::planet::{Planet, Population};
+use crate::planet::{Form, Planet, Population};
 use glam::{DMat3, DQuat, DVec3, Vec3};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -101,9 +101,8 @@ struct Kind<'a> {
 impl Kind<'_> {
     /// Colour of a vertex, linear sRGB.
     fn color(&self, vertex: &Vertex) -> Vec3 {
-        let [first, second] =
-            [self.population.color, self.population.leaf_color].map(|color| DVec3::from_array(color).as_vec3());
-        first.lerp(second, vertex.part).clamp(Vec3::ZERO, Vec3::ONE)
+        let [first, second] = self.population.colors().map(|color| DVec3::from_array(color).as_vec3());
+        (first.lerp(second, vertex.part) * vertex.tint).clamp(Vec3::ZERO, Vec3::ONE)
     }
 }
 
@@ -241,11 +240,15 @@ impl<'a> Document<'a> {
         let indices = self.accessor(Part { what: What::Triangles, kind }, Some(ELEMENT_ARRAY_BUFFER));
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0 });
         let instances = self.attributes(&What::INSTANCES, kind, None);
+        let mut about = json!({ "kind": kind.population.name, "population": kind.index, "variant": kind.variant });
+        if let Form::Game(form) = &kind.population.form {
+            about["asset"] = json!(form.asset);
+        }
         self.nodes.push(json!({
             "name": name,
             "mesh": self.meshes.len(),
             "extensions": { INSTANCING: { "attributes": instances } },
-            "extras": { "kind": kind.population.name, "population": kind.index, "variant": kind.variant },
+            "extras": about,
         }));
         self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
     }

@@ -22,6 +22,11 @@ pub enum DialogRequest {
         /// Folder to begin in.
         folder: Option<PathBuf>,
     },
+    /// A mesh for a population.
+    Model {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+    },
     /// A picture of a biome table to read.
     ImportTable {
         /// Folder to begin in.
@@ -84,6 +89,7 @@ impl DialogRequest {
         match self {
             DialogRequest::Open { .. } => "Open planet",
             DialogRequest::Picture { .. } => "Choose a height map",
+            DialogRequest::Model { .. } => "Choose a mesh",
             DialogRequest::ImportTable { .. } => "Import biome table",
             DialogRequest::ExportTable { .. } => "Export biome table",
             DialogRequest::Photograph { .. } => "Save picture",
@@ -104,6 +110,7 @@ impl DialogRequest {
             DialogRequest::ImportTable { .. } | DialogRequest::ExportTable { .. } => ("Pictures", &["png"]),
             DialogRequest::BakedEdits { .. } => ("OpenEXR pictures", &["exr"]),
             DialogRequest::Mesh { .. } => ("Meshes", &["glb", "obj"]),
+            DialogRequest::Model { .. } => ("glTF meshes", &["glb", "gltf"]),
             DialogRequest::Folder { .. } => ("Folders", &[]),
         }
     }
@@ -118,6 +125,7 @@ impl DialogRequest {
         match self {
             DialogRequest::Open { folder }
             | DialogRequest::Picture { folder }
+            | DialogRequest::Model { folder }
             | DialogRequest::ImportTable { folder }
             | DialogRequest::ExportTable { folder, .. }
             | DialogRequest::Photograph { folder, .. }

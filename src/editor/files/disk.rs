@@ -49,18 +49,16 @@ pub struct TheirFile {
 }
 
 impl TheirFile {
-    /// Reads the content of `path`. Pictures that `ours` has need not be read again.
+    /// Reads the content of `path`. Pictures and meshes that `ours` has need not be read again.
     pub fn read(path: &Path, bytes: Vec<u8>, ours: &Planet) -> Self {
         let Ok(text) = std::str::from_utf8(&bytes) else {
             return Self { bytes, planet: Err("the text is not UTF-8; save it as UTF-8".to_owned()) };
         };
         let planet = match Planet::from_text_of(path, text) {
             Ok(mut planet) => {
-                ours.clone().each_picture(|_, file, extent| {
-                    if let (Some(key), Some(picture)) = (file.key(extent), file.picture(extent)) {
-                        planet.give_picture(&key, picture);
-                    }
-                });
+                for (key, content) in ours.linked_files() {
+                    content.iter().for_each(|content| planet.give_file(&key, content));
+                }
                 Ok(planet)
             }
             Err(error) => Err(error.to_string().lines().next().unwrap_or_default().to_owned()),

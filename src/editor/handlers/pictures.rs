@@ -1,4 +1,4 @@
-//! The choice of a picture for a height map or a stamp.
+//! The choice of a picture for a height map or a stamp, and of a mesh for a population.
 
 use crate::editor::files::dialogs::DialogRequest;
 use crate::editor::panels::sculpt::BRUSH;
@@ -8,10 +8,17 @@ use crate::planet::param::{Domain, ParamPath, Segment, ValueMut};
 use eframe::egui;
 use std::path::Path;
 
-/// Asks for a picture for the parameter at `path`.
+/// Asks for a picture or a mesh for the parameter at `path`.
 pub fn browse(state: &mut State, ctx: &egui::Context, path: ParamPath) {
     let folder = state.document.folder();
-    state.questions.ask(ctx, Asking::Picture(path), DialogRequest::Picture { folder });
+    let request =
+        if is_mesh(state, &path) { DialogRequest::Model { folder } } else { DialogRequest::Picture { folder } };
+    state.questions.ask(ctx, Asking::Picture(path), request);
+}
+
+/// Whether the parameter at `path` names a mesh.
+fn is_mesh(state: &State, path: &ParamPath) -> bool {
+    state.document.planet().meshes().any(|(at, _)| at == *path)
 }
 
 /// Writes the name of the chosen file into the parameter at `path`, unless the planet has no such parameter any more.
@@ -31,5 +38,6 @@ pub fn choose(state: &mut State, path: &ParamPath, file: &Path) {
     if let Some(folder) = state.document.folder() {
         planet = planet.moved_to(&folder);
     }
-    state.edit(planet, Some("Choose picture".to_owned()));
+    let label = if is_mesh(state, path) { "Choose mesh" } else { "Choose picture" };
+    state.edit(planet, Some(label.to_owned()));
 }

@@ -7,8 +7,8 @@ use super::describe;
 use super::history::{History, Home};
 use crate::editor::files::file_names::file_name_of;
 use crate::planet::param::ParamPath;
-use crate::planet::picture::{Picture, PictureKey, folder_of};
-use crate::planet::{Bookmark, Planet, ground_note, validate};
+use crate::planet::picture::folder_of;
+use crate::planet::{Bookmark, FileContent, FileKey, Planet, ground_note, validate};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -134,11 +134,11 @@ impl Document {
         self.home.path.as_deref().map(folder_of)
     }
 
-    /// Gives a picture that has been read to the planet. That is no edit: no parameter changes.
-    pub fn give_picture(&mut self, key: &PictureKey, picture: &Arc<Picture>) {
+    /// Gives a file that has been read to the planet. That is no edit: no parameter changes.
+    pub fn give_file(&mut self, key: &FileKey, content: &FileContent) {
         let given = |planet: &Arc<Planet>| {
             let mut planet = (**planet).clone();
-            planet.give_picture(key, picture);
+            planet.give_file(key, content);
             Arc::new(planet)
         };
         (self.planet, self.valid) = (given(&self.planet), given(&self.valid));

@@ -88,9 +88,9 @@ impl Drop for Thumbnails {
     }
 }
 
-/// Reads height maps that are not loaded. A layer whose picture cannot be read is flat.
+/// Reads height maps and meshes that are not loaded. A layer whose picture cannot be read is flat.
 fn with_pictures(thumbnail: Thumbnail) -> Thumbnail {
-    if thumbnail.planet.missing_pictures().is_empty() {
+    if thumbnail.planet.missing_files().is_empty() {
         return thumbnail;
     }
     let mut planet = Planet::clone(&thumbnail.planet);

@@ -18,6 +18,8 @@ pub struct Vertex {
     pub light: f32,
     /// Share of the wind's push that it follows: 0 at the base, 1 where it moves most.
     pub sway: f32,
+    /// Factor on the mix of the colours, linear sRGB: 1 but in meshes of files, which have colours of their own.
+    pub tint: Vec3,
 }
 
 /// Triangles of a form, with the front counter-clockwise.
@@ -86,7 +88,8 @@ impl Mesh {
         let Look { part, light, sway } = look;
         let unit = |x: f32| x.clamp(0.0, 1.0);
         let normal = normal.normalize_or(Vec3::Z);
-        self.vertices.push(Vertex { position, normal, part: unit(part), light: unit(light), sway: unit(sway) });
+        let (part, light, sway) = (unit(part), unit(light), unit(sway));
+        self.vertices.push(Vertex { position, normal, part, light, sway, tint: Vec3::ONE });
         index
     }
 

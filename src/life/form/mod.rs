@@ -6,7 +6,12 @@
 //! - `cover`: how much a form covers, and its light, for what is seen of many from afar
 //! - `tree`, `crown`, `foliage`, `conifer`, `palm`, `tuft`, `cushion`, `cactus`, `mushroom`: kinds of plant
 //! - `stone`, `crystal`: kinds of rock; `bulbs`, `fans`, `tendrils`: kinds of strange life
+//! - `artist`: meshes of files; `shade`: their light, `thin`: their levels of detail; `stand_in`: what is drawn of an
+//!   object that a game draws
 
+mod artist;
+#[cfg(test)]
+mod artist_tests;
 mod build;
 mod bulbs;
 mod cactus;
@@ -24,13 +29,16 @@ mod math;
 mod mushroom;
 mod palm;
 mod random;
+mod shade;
 mod sight;
 mod sphere;
+mod stand_in;
 mod steer;
 mod stone;
 mod tendrils;
 #[cfg(test)]
 mod tests;
+mod thin;
 mod tree;
 mod tube;
 mod tuft;
@@ -65,6 +73,11 @@ impl Form {
             Form::Crystal(form) => Box::new(|detail| crystal::build(form, detail)),
             Form::Bulbs(form) => Box::new(|detail| bulbs::build(form, detail)),
             Form::Tendrils(form) => Box::new(|detail| tendrils::build(form, detail)),
+            Form::Mesh(form) => match artist::plan(form, seed) {
+                Some(plan) => Box::new(move |detail| artist::build(&plan, detail)),
+                None => Box::new(|detail| stand_in::build(stand_in::WIDTH, detail)),
+            },
+            Form::Game(form) => Box::new(|detail| stand_in::build(form.width as f32, detail)),
         }
     }
 }
@@ -119,4 +132,14 @@ fn matched(build: &Builder, seed: u32, level: usize, near: &sight::Sights) -> Me
     let (_, mut mesh, seen) = best.unwrap_or_default();
     seen.adapt(near, &mut mesh);
     mesh
+}
+
+/// Share of the box around a mesh that it covers, below which bodies pass between its parts.
+const OPEN: f32 = 0.3;
+
+/// Whether bodies pass between the parts of a mesh: it has leaves, or covers little of what is around it.
+pub(crate) fn is_open(mesh: &Mesh) -> bool {
+    let has_leaves = mesh.vertices.iter().any(|vertex| vertex.part > 0.5);
+    let reach = mesh.vertices.iter().fold(0.02_f32, |reach, v| reach.max(v.position.truncate().length()));
+    has_leaves || sight::look_from(mesh, 4, 40).cover < OPEN * 2.0 * reach
 }

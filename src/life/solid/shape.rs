@@ -23,6 +23,12 @@ const TOLERANCE: f64 = 0.01;
 /// A part is a ball if its corners are at distances from its middle that differ by less than this share.
 const BALL: f64 = 0.12;
 
+/// Corners of all triangles of a ball of a file, at least.
+const BALL_CORNERS: usize = 240;
+/// Height in heights up to which the corners of a stem in a file are its foot, which goes as far into the ground: few
+/// have roots.
+const FOOT: f32 = 0.02;
+
 /// What bodies hit of an object of height 1: z up, the foot at the origin.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shape {
@@ -63,6 +69,8 @@ enum Counts {
     Stems,
     /// All parts.
     Bodies,
+    /// All parts of a file, where a box has few corners at one distance from its middle, as a ball has many.
+    Boxes,
     /// Those that reach into the ground as stems, the others as bodies.
     Both,
 }
@@ -74,6 +82,8 @@ impl Counts {
             Form::Cactus(_) | Form::Mushroom(_) | Form::Stone(_) | Form::Crystal(_) | Form::Cushion(_) => Self::Bodies,
             Form::Bulbs(_) => Self::Both,
             Form::Tuft(_) => Self::Nothing,
+            Form::Mesh(_) => Self::Boxes,
+            Form::Game(_) => Self::Bodies,
         }
     }
 }
@@ -85,7 +95,18 @@ impl Shape {
         if counts == Counts::Nothing {
             return Self::default();
         }
-        Self::measured(&form::mesh(&population.form, model::seed(population, variant), 0), counts)
+        let mesh = form::mesh(&population.form, model::seed(population, variant), 0);
+        if matches!(population.form, Form::Mesh(_)) { Self::of_file(mesh) } else { Self::measured(&mesh, counts) }
+    }
+
+    /// The shape of a mesh of a file: stems if leaves or open ground are around them, bodies otherwise.
+    fn of_file(mut mesh: Mesh) -> Self {
+        let counts = if form::is_open(&mesh) { Counts::Stems } else { Counts::Boxes };
+        mesh.triangles.retain(|triangle| triangle.iter().all(|&at| mesh.vertices[usize::from(at)].part < 0.5));
+        for vertex in mesh.vertices.iter_mut().filter(|vertex| counts == Counts::Stems && vertex.position.z < FOOT) {
+            vertex.position.z = vertex.position.z.min(-FOOT);
+        }
+        Self::measured(&mesh, counts)
     }
 
     fn measured(mesh: &Mesh, counts: Counts) -> Self {
@@ -105,7 +126,8 @@ impl Shape {
                 shape.parts.extend(rods.into_iter().map(Part::rod));
             } else {
                 let corners: Vec<DVec3> = part.into_iter().flatten().collect();
-                let Some(body) = Part::body(&corners) else { continue };
+                let may_be_ball = counts != Counts::Boxes || corners.len() >= BALL_CORNERS;
+                let Some(body) = Part::body(&corners, may_be_ball) else { continue };
                 shape.deviation = corners.iter().fold(shape.deviation, |most, corner| most.max(body.over(*corner)));
                 shape.parts.push(body);
             }
@@ -146,10 +168,10 @@ impl Part {
     }
 
     /// A ball or a hull of corners.
-    fn body(corners: &[DVec3]) -> Option<Self> {
+    fn body(corners: &[DVec3], may_be_ball: bool) -> Option<Self> {
         let ball = Ball::around(corners.iter().map(|corner| Ball { middle: *corner, radius: 0.0 }));
         let least = corners.iter().map(|corner| corner.distance(ball.middle)).fold(f64::MAX, f64::min);
-        if least > (1.0 - BALL) * ball.radius {
+        if may_be_ball && least > (1.0 - BALL) * ball.radius {
             let radius = 0.5 * (least + ball.radius);
             return Some(Self::rod(Rod { ends: [ball.middle; 2], radius }));
         }
@@ -304,5 +326,38 @@ mod tests {
                 assert!(shape.parts.len() < 130 && shape.reach < 3.0);
             }
         }
+    }
+
+    /// A column of eight sides, as a node of a file.
+    fn column(radius: f32, [low, high]: [f32; 2], is_leaf: bool) -> crate::planet::mesh::MeshNode {
+        use crate::planet::mesh::{MeshCorner, MeshNode};
+        use glam::{Vec2, Vec3};
+        let corner = |i: u32, z: f32| {
+            let (sin, cos) = (i as f32 * std::f32::consts::FRAC_PI_4).sin_cos();
+            let normal = Vec3::new(cos, sin, 0.0);
+            MeshCorner { position: (normal * radius).with_z(z), normal, color: Vec3::ONE, is_leaf }
+        };
+        let corners = (0..8).flat_map(|i| [corner(i, low), corner(i, high)]).collect();
+        let sides = (0..8).map(|i| (2 * i, 2 * ((i + 1) % 8)));
+        let walls = sides.flat_map(|(a, b)| [[a, b, b + 1], [a, b + 1, a + 1]]);
+        let ends = (1..7).flat_map(|i| [[0, 2 * i + 2, 2 * i], [1, 2 * i + 1, 2 * i + 3]]);
+        MeshNode { name: String::new(), foot: Vec2::ZERO, corners, triangles: walls.chain(ends).collect() }
+    }
+
+    #[test]
+    fn of_a_tree_of_a_file_the_trunk_is_hit_and_of_a_stone_all() {
+        use crate::planet::life::FileMesh;
+        use crate::planet::mesh::MeshFile;
+        let shape = |nodes| {
+            let form = Form::Mesh(FileMesh { file: MeshFile::holding(nodes), ..FileMesh::default() });
+            Shape::new(&Population { form, ..Population::default() }, 0)
+        };
+        // It stands on the ground without roots.
+        let tree = shape(vec![column(0.3, [0.0, 5.0], false), column(3.0, [4.0, 10.0], true)]);
+        assert!(!tree.parts.is_empty() && tree.reach < 0.6, "{} {}", tree.parts.len(), tree.reach);
+        assert!(tree.parts.iter().all(|part| matches!(part.piece, Piece::Rod(_))));
+        let stone = shape(vec![column(3.0, [0.0, 4.0], false)]);
+        assert!(stone.parts.len() == 1 && stone.reach > 1.0, "{} {}", stone.parts.len(), stone.reach);
+        assert!(matches!(stone.parts[0].piece, Piece::Hull(_)));
     }
 }

@@ -2,7 +2,8 @@
 //! the same names. Lengths are shares of the height of an object.
 
 use crate::planet::kinds::kinds;
-use crate::planet::param::{Domain, Stage, Unit, choice, count, linear, params};
+use crate::planet::mesh::MeshFile;
+use crate::planet::param::{Domain, Stage, Unit, choice, count, linear, log, params};
 
 kinds! {
     /// The form of the objects.
@@ -31,11 +32,20 @@ kinds! {
     Fans(Fans) = "Fans",
     /// A group of curling tendrils.
     Tendrils(Tendrils) = "Tendrils",
+    /// A mesh of an artist, from a file.
+    Mesh(FileMesh) = "Mesh of a file",
+    /// An object that a game draws.
+    Game(GameObject) = "Game's own",
 }
 
 impl Form {
     /// Variants of each form.
     pub const VARIANTS: u32 = 4;
+
+    /// Whether the variants differ.
+    pub(crate) fn has_variants(&self) -> bool {
+        !matches!(self, Form::Game(_) | Form::Mesh(FileMesh { variants: false, .. }))
+    }
 }
 
 choice! {
@@ -255,5 +265,32 @@ params! {
         twist: f64 = 0.4, "Twist", Unit::None, linear(0.0, 2.0), Stage::Life;
         /// Spread of the tendrils: 0 stands upright, 1 leans far out.
         spread: f64 = 0.45, "Spread", Unit::None, linear(0.0, 1.0), Stage::Life;
+    }
+}
+
+params! {
+    /// A mesh of an artist: a glTF 2.0 file. Its foot is at the origin of the file, its height becomes that of the
+    /// objects, and what lies below the origin is below the ground.
+    pub struct FileMesh {
+        /// The mesh: .glb, or .gltf with the files that it names beside it, of at most 200000 triangles. The path is
+        /// relative to the preset's folder, or absolute. Without a file the objects are plain capsules.
+        file: MeshFile = MeshFile::default(), "File", Unit::None, Domain::File { max_chars: 256 }, Stage::Life;
+        /// Whether each node at the top of the scene is an object of its own, about its own place: the first four are
+        /// the variants. Otherwise all nodes together are one object.
+        variants: bool = false, "Nodes are variants", Unit::None, Domain::Flag, Stage::Life;
+        /// Whether the objects have the colours of the file: those of materials, corners and pictures. Otherwise leaves
+        /// have the leaf colour, and all else the colour of the population.
+        own_colors: bool = true, "Colours of the file", Unit::None, Domain::Flag, Stage::Life;
+    }
+}
+
+params! {
+    /// An object that a game draws in its own way: it is placed, listed and hit as others are. Pictures show a capsule
+    /// of its size.
+    pub struct GameObject {
+        /// Name by which the game knows what to draw.
+        asset: String = String::new(), "Name in the game", Unit::None, Domain::Text { max_chars: 48 }, Stage::Life;
+        /// Width of the object, as a share of the height.
+        width: f64 = 0.3, "Width", Unit::None, log(0.02, 10.0), Stage::Life;
     }
 }

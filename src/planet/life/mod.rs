@@ -13,7 +13,8 @@ mod ready;
 mod seeds;
 
 pub use forms::{
-    Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, Form, Mushroom, Palm, Stone, Tendrils, Tree, Tuft,
+    Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, FileMesh, Form, GameObject, Mushroom, Palm, Stone, Tendrils,
+    Tree, Tuft,
 };
 pub use ready::{READY_POPULATIONS, ReadyPopulation};
 pub use seeds::free_seed;
@@ -114,6 +115,15 @@ impl Population {
     pub(crate) fn placed(&self) -> Self {
         let Self { name, color, leaf_color, litter, sway, solid, form, .. } = Self::default();
         Self { name, color, leaf_color, litter, sway, solid, form, ..self.clone() }
+    }
+
+    /// Colours of the objects (albedo, linear sRGB), of wood and stone and of leaves: those of a mesh that has its own.
+    pub fn colors(&self) -> [[f64; 3]; 2] {
+        match &self.form {
+            Form::Mesh(FileMesh { file, own_colors: true, .. }) => file.mesh().map(|mesh| mesh.colors),
+            _ => None,
+        }
+        .unwrap_or([self.color, self.leaf_color])
     }
 
     /// Ranges whose ends are out of order: the field, and what is wrong with it.

@@ -1,4 +1,5 @@
-//! Memory and work limits of the pictures of one planet, so that no preset exhausts either, whatever its files say.
+//! Memory and work limits of the pictures and meshes of one planet, so that no preset exhausts either, whatever its
+//! files say.
 //!
 //! - One picture has at most [`MAX_PIXELS`].
 //! - All pictures of a planet keep at most [`MAX_BYTES`] of pixels: two bytes for a pixel of a PNG, four for one of an
@@ -6,9 +7,10 @@
 //!   moment: no planet's pictures ever take more than 1.5 GiB.
 //! - The files of a planet hold at most [`MAX_WORK_BYTES`] of unpacked numbers in all channels, used or not: this
 //!   bounds the time.
+//! - All meshes of a planet have at most [`MAX_MESH_TRIANGLES`].
 //!
-//! Sizes come from the files' headers and are taken from the budget before anything is decoded. Equal pictures count
-//! once, however many layers use them.
+//! Sizes come from the files' headers and are taken from the budget before anything is decoded. Equal pictures and
+//! meshes count once, however many layers and populations use them.
 
 use super::pixels::Picture;
 
@@ -19,18 +21,22 @@ pub const MAX_BYTES: u64 = 512 << 20;
 /// Most bytes that the files of all pictures of a planet may hold, unpacked.
 pub const MAX_WORK_BYTES: u64 = 4 << 30;
 
-/// The budget that is left for further pictures of one planet.
+/// Most triangles of all meshes of a planet.
+pub const MAX_MESH_TRIANGLES: usize = 1_000_000;
+
+/// The budget that is left for further pictures and meshes of one planet.
 #[derive(Clone, Debug)]
 pub struct Budget {
     bytes: u64,
     work_bytes: u64,
-    /// Hashes of the pictures that have been counted.
+    triangles: usize,
+    /// Hashes of the pictures and meshes that have been counted.
     counted: Vec<u64>,
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { bytes: MAX_BYTES, work_bytes: MAX_WORK_BYTES, counted: Vec::new() }
+        Self { bytes: MAX_BYTES, work_bytes: MAX_WORK_BYTES, triangles: MAX_MESH_TRIANGLES, counted: Vec::new() }
     }
 }
 
@@ -40,6 +46,21 @@ impl Budget {
         if !self.counted.contains(&picture.hash) {
             self.take(picture.bytes, 0)?;
             self.counted.push(picture.hash);
+        }
+        Ok(())
+    }
+
+    /// Counts a loaded mesh; an error if there is no room for it.
+    pub(in crate::planet) fn keep_mesh(&mut self, hash: u64, triangles: usize) -> Result<(), String> {
+        if !self.counted.contains(&hash) {
+            let left = self.triangles;
+            self.triangles = left.checked_sub(triangles).ok_or_else(|| {
+                format!(
+                    "has {triangles} triangles, and {left} of {MAX_MESH_TRIANGLES} are left for it beside the planet's \
+                     other meshes; use smaller meshes, or one file in several populations"
+                )
+            })?;
+            self.counted.push(hash);
         }
         Ok(())
     }
@@ -82,6 +103,15 @@ fn mebibytes(bytes: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn equal_meshes_count_once() {
+        let mut budget = Budget::default();
+        assert_eq!((budget.keep_mesh(7, 600_000), budget.keep_mesh(7, 600_000)), (Ok(()), Ok(())));
+        let error = budget.keep_mesh(8, 500_000).unwrap_err();
+        assert!(error.starts_with("has 500000 triangles, and 400000 of 1000000 are left"), "{error}");
+        assert_eq!(budget.keep_mesh(9, 400_000), Ok(()));
+    }
 
     #[test]
     fn what_is_taken_is_missing_and_comes_back() {

@@ -17,11 +17,11 @@ pub fn is_contained() -> bool {
 }
 
 /// The result of `decode`, or an error if it panics. Values that `decode` was changing must not be used after an error.
-pub(super) fn contained<T>(decode: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+pub(in crate::planet) fn contained<T>(decode: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     let before = CONTAINED.replace(true);
     let result = catch_unwind(AssertUnwindSafe(decode));
     CONTAINED.set(before);
-    result.unwrap_or_else(|_| Err("is broken: its numbers contradict each other; save the picture anew".to_owned()))
+    result.unwrap_or_else(|_| Err("is broken: its numbers contradict each other; save it anew".to_owned()))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// The path to a file as a preset in a folder writes it: relative if the two share more than the root, with `/` on
 /// every system; otherwise absolute.
-pub(super) fn written_from(file: &Path, folder: &Path) -> String {
+pub(in crate::planet) fn written_from(file: &Path, folder: &Path) -> String {
     // Links in either path would break `..`.
     let (real_file, real_folder) = (real(file), real(folder));
     let (file_steps, folder_steps): (Vec<_>, Vec<_>) =
@@ -35,7 +35,7 @@ fn real(path: &Path) -> PathBuf {
 }
 
 /// The path without `.` and `a/..`.
-pub(super) fn tidy(path: &Path) -> PathBuf {
+pub(in crate::planet) fn tidy(path: &Path) -> PathBuf {
     let mut tidy = PathBuf::new();
     for step in path.components() {
         match step {

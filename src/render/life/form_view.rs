@@ -246,6 +246,7 @@ fn uniforms(
         Vec4::W,
     ];
     let size_m = population.height_m;
+    let [first, second] = population.colors();
     let color = |color: [f64; 3]| Vec3::from_array(color.map(|part| part as f32)).to_array();
     Uniforms {
         clip_from_form: Mat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose().to_cols_array_2d(),
@@ -253,9 +254,9 @@ fn uniforms(
         size_m: size_m as f32,
         to_eye: to_eye.to_array(),
         pixel_m: (size_m * camera.extent[1] / f64::from(size_px[1].max(1))) as f32,
-        first: color(population.color),
+        first: color(first),
         material: Material::of(&population.form) as u32,
-        second: color(population.leaf_color),
+        second: color(second),
         floor,
         behind,
         rest: 0.0,

@@ -15,20 +15,24 @@ pub(super) struct Vertex {
     /// The last number is the logarithm to base 2 of the level's factor of light.
     normal: [i8; 4],
     look: [u8; 4],
+    /// Roots of the factors on the colours: 128 is 1.
+    tint: [u8; 4],
 }
 
 /// The attributes of a vertex.
-pub(super) const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Snorm8x4, 2 => Unorm8x4];
+pub(super) const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Snorm8x4, 2 => Unorm8x4, 3 => Unorm8x4];
 
 /// A corner of a mesh of a level. `light`: logarithm of the level's factor of light.
 pub(super) fn packed(vertex: &form::Vertex, light: i8, level: usize) -> Vertex {
     let [x, y, z] = vertex.normal.to_array().map(|part| (part * 127.0).round() as i8);
     let look = [vertex.part, vertex.light, vertex.sway].map(|share| (share * 255.0).round() as u8);
+    let [r, g, b] = vertex.tint.to_array().map(|part| (part.max(0.0).sqrt() * 128.0).round() as u8);
     Vertex {
         position: vertex.position.to_array(),
         normal: [x, y, z, light],
         look: [look[0], look[1], look[2], (level * 85) as u8],
+        tint: [r, g, b, 0],
     }
 }
 

@@ -293,7 +293,7 @@ impl Look<'_> {
             })
         };
         let population = self.population;
-        let [first, second] = [root(population.color), root(population.leaf_color)];
+        let [first, second] = population.colors().map(root);
         let sway = (population.sway.clamp(0.0, 0.5) * 510.0).round() as u8;
         // Any number that differs from object to object.
         let phase = (object.rank * 255.0) as u8;

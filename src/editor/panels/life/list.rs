@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut LifeState, draft: &mut Draft<'
                 let check = check.on_hover_text("Whether the population is there");
                 check.accessible_name(format!("Enabled of {}", population.name));
             });
-            for color in [population.color, population.leaf_color] {
+            for color in population.colors() {
                 let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, 20.0), egui::Sense::hover());
                 swatch(ui, rect.expand2(egui::vec2(3.0, 0.0)), color);
             }
