@@ -87,7 +87,7 @@ fn floor_at(place: vec2f, lit: f32) -> vec4f {
 fn floor_vertex(@builtin(vertex_index) index: u32) -> Surface {
     let corner = (vec2f(vec2u(index & 1u, index >> 1u)) * 2.0 - 1.0) * view.floor;
     let place = vec3f(corner, 0.0);
-    return Surface(view.clip_from_form * vec4f(place, 1.0), place, vec3f(0.0, 0.0, 1.0), vec2f(0.0, 1.0));
+    return Surface(view.clip_from_form * vec4f(place, 1.0), place, vec3f(0.0, 0.0, 1.0), vec2f(0.0, 1.0), vec3f(1.0));
 }
 
 @fragment
@@ -100,7 +100,7 @@ fn floor_fragment(in: Surface) -> @location(0) vec4f {
 fn shadow_vertex(in: Vertex) -> Surface {
     let flat = in.position - view.to_sun * (max(in.position.z, 0.0) / view.to_sun.z);
     let place = vec3f(flat.xy, 0.0);
-    return Surface(view.clip_from_form * vec4f(place, 1.0), place, in.normal.xyz, in.look.xy);
+    return Surface(view.clip_from_form * vec4f(place, 1.0), place, in.normal.xyz, in.look.xy, vec3f(1.0));
 }
 
 @fragment

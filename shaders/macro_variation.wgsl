@@ -13,7 +13,8 @@ fn octave_at(octave: Octave, position: vec3f, lod: f32) -> f32 {
     return textureSampleLevel(noise_tile, repeated, octave.offset + position / octave.period, lod).g;
 }
 
-// A pixel's footprint on the ground: its longer side as a vector, the width of a tap, and the taps along the longer side.
+// A pixel's footprint on the ground: its longer side as a vector, the width of a tap, and the taps along the longer
+// side.
 struct Slant {
     long_m: vec3f,
     wide_m: f32,
