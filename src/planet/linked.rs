@@ -17,7 +17,7 @@ pub trait Linked: PartialEq + fmt::Debug {
     /// The file of a source.
     fn file(key: &Self::Key) -> &Path;
 
-    /// The same source in a file that is called otherwise.
+    /// Source in a file of another name.
     fn renamed(key: Self::Key, file: PathBuf) -> Self::Key;
 }
 

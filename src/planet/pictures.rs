@@ -17,7 +17,7 @@ pub enum FileKey {
     Mesh(PathBuf),
 }
 
-/// What was read from a file that a planet refers to. Clones share it.
+/// Content of a file that a planet refers to. Clones share it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FileContent {
     /// Pixels.
@@ -48,7 +48,7 @@ impl FileKey {
     /// Reads the file, or shares a picture in use. Its size is taken from the budget of the planet.
     ///
     /// # Errors
-    /// What is wrong with the file, and what would be right.
+    /// Problem of the file, and what would be right.
     pub fn load(&self, budget: &mut Budget) -> Result<FileContent, String> {
         match self {
             FileKey::Picture(key) => key.load(budget).map(FileContent::Picture),

@@ -2,7 +2,7 @@
 
 use crate::world::MapView;
 
-/// What is drawn of the surface.
+/// Picture that is drawn of the surface: shaded, or one of its fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DebugView {
     /// The planet.

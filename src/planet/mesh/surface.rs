@@ -27,14 +27,14 @@ pub(super) fn z_up(v: Vec3) -> Vec3 {
     Vec3::new(v.x, -v.z, v.y)
 }
 
-/// What a file may still have.
+/// Budget that is left to a file.
 pub(super) struct Left {
     triangles: usize,
     corners: usize,
 }
 
 impl Left {
-    /// What a whole file may have. Corners that no triangle has count, too.
+    /// Budget of a whole file. Corners that no triangle has count, too.
     pub(super) fn all() -> Self {
         Self { triangles: MAX_TRIANGLES, corners: 4 * MAX_TRIANGLES }
     }

@@ -20,7 +20,7 @@ const RAISED_RAD: [f64; 2] = [0.05, 1.3];
 const PERSON_M: f64 = 1.8;
 const LEAST_M: f64 = 0.6;
 
-/// What the box shows.
+/// Content of the box.
 pub(super) struct FormBox {
     turn_rad: f64,
     raised_rad: f64,
