@@ -68,8 +68,8 @@ fn between(x: f32, from_x: f32, to_x: f32, softness: f32) -> f32 {
     return saturate1(1.0 - max(from_x - x, x - to_x) / softness);
 }
 
-// Share of its density that a population has. `row`: its first row. `suits`: 1 where its rules may put it, 0 where
-// strokes alone do.
+// Share of its density that a population has, by its rules and by strokes. `row`: its first row. `suits`: 1 where its
+// rules may put it, 0 where strokes alone do.
 fn density_of(id: i32, row: i32, suits: f32, place: CanopyPlace) -> f32 {
     let shore_m = biome_param(id, row + 4).z;
     let on_land = select(1.0, saturate1(place.above_m - shore_m + 0.5), body.has_sea != 0u);
@@ -84,10 +84,10 @@ fn density_of(id: i32, row: i32, suits: f32, place: CanopyPlace) -> f32 {
     return on_land * (by_hand.x * by_rule + by_hand.y);
 }
 
-// The same of a population of a biome.
+// Share of its density that a population of a biome has.
 fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 { return density_of(id, row, 1.0, place); }
 
-// The same of the population whose density is shown. `wet`: share of the pixel that is under rivers and lakes.
+// Share of its density that the population has whose density is shown. `wet`: share of the pixel that is under rivers and lakes.
 fn shown_density(biome: i32, place: CanopyPlace, wet: f32) -> f32 {
     let in_water = biome_param(BIOME_SHOWN, CANOPY_ROW + 4).z < 0.0;
     if biome_param(BIOME_SHOWN, SHOWN_ROW).x == 0.0 || (wet > 0.5 && !in_water) { return 0.0; }
@@ -99,11 +99,8 @@ const HIDDEN: f32 = 0.02;
 // Strength of groves in the density of objects that stand in groups.
 const GROUPS: f32 = 0.8;
 
-// Adds the layers of a biome, the highest first. Single crowns are those of the layer that covers most. `woods_here`:
-// stand of all populations.
-fn add_canopy(
-    canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, place: CanopyPlace, woods_here: f32,
-) {
+// Adds the layers of a biome, the highest first. Single crowns are those of the layer that covers most.
+fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, place: CanopyPlace) {
     let count = i32(biome_param(id, 5).w);
     var end = select(0, (*canopy).ends.x, number == 1);
     var densities = array<f32, CANOPY_LAYERS>();
@@ -125,6 +122,9 @@ fn add_canopy(
     var fallen = vec4f(0.0);
     var through = vec4f(0.0);
     var most_littered = 0.0;
+    let at_m = body.eye_wrap_far_m + place.rel_m;
+    var woods_here = 0.0;
+    if most_seen > 0.0 { woods_here = woods(at_m, place.footprint_m); }
     for (var i = 0; i < count && most_seen > 0.0; i++) {
         if densities[i] <= 0.0 { continue; }
         // What higher objects hide does not count.
@@ -138,7 +138,6 @@ fn add_canopy(
         var stand = woods_here;
         var density = densities[i];
         if i == most {
-            let at_m = body.eye_wrap_far_m + place.rel_m;
             stand += of_one_age(kind.x, at_m, place.footprint_m);
             density *= max(1.0 + GROUPS * kind.y * groves(kind.x, at_m, place.footprint_m), 0.0);
         }
@@ -152,7 +151,8 @@ fn add_canopy(
             let left = (1.0 - drawn) * density;
             let crowns = crowns_seen(kind.x, height_m, color.w, shape.x, left, place, body.suns[0].dir);
             rest = mix(rest, 1.0 - crowns.hit, crowns.clear);
-            relief = mix(vec2f(crown_grain(kind.x, place)), crowns.relief, crowns.clear);
+            relief = crowns.relief;
+            if crowns.clear < 1.0 { relief = mix(vec2f(crown_grain(kind.x, place)), relief, crowns.clear); }
             hue = mix(0.5, crowns.random, crowns.clear);
         }
         var albedo = color.rgb;
@@ -185,9 +185,8 @@ fn canopy_at(ids: vec2<i32>, shares: vec2f, place: CanopyPlace) -> Canopy {
     var out: Canopy;
     out.floor = 1.0;
     out.eye_tangent = ray_tangent(dot(place.n, place.v));
-    let here = woods(body.eye_wrap_far_m + place.rel_m, place.footprint_m);
     for (var i = 0; i < CANOPY_BIOMES; i++) {
-        if ids[i] >= 0 && shares[i] > 0.004 { add_canopy(&out, i, ids[i], shares[i], place, here); }
+        if ids[i] >= 0 && shares[i] > 0.004 { add_canopy(&out, i, ids[i], shares[i], place); }
     }
     return out;
 }

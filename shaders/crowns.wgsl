@@ -99,7 +99,7 @@ fn lattice_axes(up: vec3f) -> mat2x3f {
 // Grain of crowns that are too narrow to be told apart: a factor of mean 1 on their light. Its grains are some pixels
 // wide; the more crowns one holds, the more they even out.
 fn crown_grain(width_m: f32, place: CanopyPlace) -> f32 {
-    let octave = max(log2(max(GRAIN_PIXELS * place.footprint_m / width_m, 1.0)), 0.0);
+    let octave = log2(max(GRAIN_PIXELS * place.footprint_m / width_m, 1.0));
     let at_m = (body.eye_wrap_far_m + place.rel_m).zxy;
     var grains = vec2f(0.0);
     for (var i = 0; i < 2; i++) {

@@ -1,5 +1,6 @@
 // A form by itself, as the editor shows it: on a round floor, in the sun, seen from the side without perspective.
 #include "life_material.wgsl"
+#include "life_vertex.wgsl"
 
 struct FormView {
     // Form space (height 1, z up) to clip space
@@ -29,14 +30,6 @@ const EXPOSURE: f32 = 3.0;
 // Share of the sun's light in the shadow.
 const IN_SHADOW: f32 = 0.25;
 
-struct Vertex {
-    // As in life.wgsl
-    @location(0) position: vec3f,
-    @location(1) normal: vec4f,
-    @location(2) look: vec4f,
-    @location(3) tint: vec4f,
-}
-
 struct Surface {
     @builtin(position) position: vec4f,
     @location(0) place: vec3f,
@@ -55,8 +48,7 @@ fn shown(radiance: vec3f) -> vec4f {
 
 @vertex
 fn vertex(in: Vertex) -> Surface {
-    let tint = in.tint.rgb * (255.0 / 128.0);
-    return Surface(view.clip_from_form * vec4f(in.position, 1.0), in.position, in.normal.xyz, in.look.xy, tint * tint);
+    return Surface(view.clip_from_form * vec4f(in.position, 1.0), in.position, in.normal.xyz, in.look.xy, tint_of(in));
 }
 
 @fragment

@@ -4,21 +4,10 @@
 #include "life_material.wgsl"
 #include "hues.wgsl"
 #include "life_instance.wgsl"
+#include "life_vertex.wgsl"
 
 @group(1) @binding(0) var<storage, read> instances: array<Instance>;
 @group(1) @binding(1) var<storage, read> lights: array<ObjectLight>;
-
-struct Vertex {
-    // Height 1, z up
-    @location(0) position: vec3f,
-    // Unit vector; logarithm of the factor on the light of the level of detail (src/life/form/cover.rs)
-    @location(1) normal: vec4f,
-    // Share of the second colour; share of the sky that it sees; how far the wind moves it; level of detail, a third
-    // for each
-    @location(2) look: vec4f,
-    // Roots of the factors on the colours, half of what they are (src/render/life/models.rs)
-    @location(3) tint: vec4f,
-}
 
 struct Surface {
     @builtin(position) position: vec4f,
@@ -64,8 +53,7 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     let leaf = second.rgb * second.rgb;
     let hued = hue_of_one(leaf, fract(second.a * 157.7) + STAND_HUES * light.stand) * (1.0 + STANDS * light.stand);
     out.albedo = mix(first.rgb * first.rgb, select(leaf, hued, kind_of(instance) >= LEAFY), in.look.x);
-    let tint = in.tint.rgb * (255.0 / 128.0);
-    out.albedo *= tint * tint;
+    out.albedo *= tint_of(in);
     out.look = in.look.xy;
     out.sun = vec4f(light.sun, light.visible);
     out.sky = light.sky;

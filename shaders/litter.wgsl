@@ -50,7 +50,7 @@ fn fallen_leaf(q: vec2f, cells: f32, share: f32, layer: u32) -> vec4f {
         let along = dot(away, axis) / length;
         let across = (away.y * axis.x - away.x * axis.y) / length;
         // Broadest before the middle, pointed at the tip.
-        let width = 2.0 * mix(FALLEN_WIDTHS.x, FALLEN_WIDTHS.x + FALLEN_WIDTHS.y, fract(random.y * 71.0))
+        let width = 2.0 * (FALLEN_WIDTHS.x + FALLEN_WIDTHS.y * fract(random.y * 71.0))
             * (1.0 - along * along) * (1.0 - 0.35 * along);
         if abs(along) >= 1.0 || abs(across) >= width { continue; }
         highest = random.z;

@@ -152,7 +152,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
         let long_m = select(y, x, is_x_longer);
         let wide_m = max(length(select(x, y, is_x_longer)), length(long_m) * tap_width);
         var p = projected(body.eye_wrap_m + seen.rel_m - carried_m, axis);
-        p += long_m * ((f32(step) + 0.5) / f32(steps) - 0.5);
+        p += long_m * tap_place(step, steps);
         var period_m = size.x;
         if is_fine {
             p = rotated(p);

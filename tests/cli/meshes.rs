@@ -64,7 +64,7 @@ fn objects_in_a_file_have_the_mesh_and_its_colours() {
     // The file is read, and nothing replaces it.
     let (done, said) = run(folder.path(), &[&["instances", "a.ron", "-o", "oak.glb"], &place[..]].concat());
     assert!(!done && said.contains("a mesh that the planet reads, which would be lost"), "{said}");
-    // A form that a game draws is told by its name.
+    // Objects of a form that a game draws carry the name of its asset.
     write_preset(folder.path(), "Game(asset: \"hut_a\", width: 1.0)");
     let (document, _) = objects("huts.glb");
     let node = document["nodes"].as_array().unwrap().iter().find(|node| node["extras"]["kind"] == "Oak").unwrap();

@@ -84,7 +84,7 @@ fn compare(builder: &Builder, terrain: &Terrain, place: LatLon, quality: Quality
     compared
 }
 
-/// Compares at random places of all shipped planets with life until so many objects have been; gives their number.
+/// Number of objects compared, at least `wanted`, at random places of all shipped planets with life.
 fn compare_objects(wanted: usize, quality: Quality) -> usize {
     let planets = shipped::ALL.iter().map(|shipped| shipped.load().unwrap());
     let planets = planets.filter(|planet| !planet.life.is_empty());

@@ -134,7 +134,7 @@ fn the_density_of_the_selected_population_is_shown_and_hidden() {
     assert_eq!(shown(&harness), (DebugView::Density, 1));
     click(&mut harness, "Show density");
     assert_eq!(shown(&harness).0, DebugView::Shaded);
-    // Of a planet on which nothing stands there is none.
+    // A planet without populations has no density.
     click(&mut harness, "Remove population");
     click(&mut harness, "Remove population");
     assert!(app::is_disabled(&harness, "Show density"));
@@ -279,7 +279,7 @@ fn a_mesh_is_chosen_and_follows_its_file() {
     send(&mut harness, Command::Undo);
     send(&mut harness, Command::Redo);
     until(&mut harness, "the newest mesh is there", |harness| triangles(harness) == Some(12));
-    // What cannot be read is told, and the last mesh stays.
+    // A broken file leaves the last mesh in place, with a problem that names it.
     std::fs::write(&file, "no mesh").unwrap();
     until(&mut harness, "the problem is told", |harness| {
         harness.query_all_by_label_contains("is no glTF 2.0 file").next().is_some()

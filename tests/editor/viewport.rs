@@ -268,7 +268,7 @@ fn every_view_with_values_has_a_legend() {
         DebugView::Albedo,
         DebugView::Plates,
         DebugView::Rivers,
-        // That of a density tells of a population.
+        // The legend of a density names a population.
         DebugView::Density,
     ];
     assert_eq!(without, known);

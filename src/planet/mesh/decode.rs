@@ -20,6 +20,8 @@ const MOST_WIDE: f32 = 50.0;
 const MOST_OBJECTS: usize = 300_000;
 /// Most pixels of all pictures of a file.
 const MOST_PIXELS: usize = 1 << 28;
+/// Most bytes of all buffers and pictures that a document names in files: one file may be named many times.
+const MOST_BYTES: usize = 512 << 20;
 /// Parts of names of materials of leaves.
 const LEAVES: [&str; 4] = ["leaf", "leaves", "foliage", "needle"];
 /// Extensions that a file may need: those that change no triangle, or that are read.
@@ -32,7 +34,7 @@ pub(super) type Fetch<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 /// Reads a document and the files that it names. The paths of [`MeshData`] are from its folder.
 pub(super) fn decode(bytes: &[u8], fetch: &mut Fetch<'_>) -> Result<MeshData, String> {
     let (document, blob) = parsed(bytes)?;
-    let mut files = Files { fetch, others: Vec::new(), hash: fnv1a(bytes) };
+    let mut files = Files { fetch, others: Vec::new(), hash: fnv1a(bytes), left: MOST_BYTES };
     let mut buffers = Vec::new();
     let mut blob = blob;
     for buffer in document.buffers() {
@@ -104,6 +106,8 @@ struct Files<'a, 'b> {
     fetch: &'a mut Fetch<'b>,
     others: Vec<PathBuf>,
     hash: u64,
+    /// Bytes that further files may have.
+    left: usize,
 }
 
 impl Files<'_, '_> {
@@ -124,6 +128,10 @@ impl Files<'_, '_> {
             return Err(format!("names the file {name:?}, which is not in its folder; put it there"));
         }
         let bytes = (self.fetch)(&name)?;
+        self.left = self
+            .left
+            .checked_sub(bytes.len())
+            .ok_or_else(|| format!("names more than {} MiB of files; use fewer or smaller ones", MOST_BYTES >> 20))?;
         self.others.push(PathBuf::from(&name));
         self.hash = fnv1a(&[self.hash.to_le_bytes(), fnv1a(&bytes).to_le_bytes()].concat());
         Ok(bytes)
@@ -238,4 +246,18 @@ fn check(nodes: &[MeshNode]) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_that_are_named_many_times_are_refused_before_they_fill_the_memory() {
+        let mut fetch = |_: &str| Ok(vec![0; 100]);
+        let mut files = Files { fetch: &mut fetch, others: Vec::new(), hash: 0, left: 250 };
+        assert!(files.read("a.bin").is_ok() && files.read("a.bin").is_ok());
+        let why = files.read("a.bin").unwrap_err();
+        assert!(why.contains("more than 512 MiB of files"), "{why}");
+    }
 }
