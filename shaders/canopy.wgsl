@@ -87,7 +87,8 @@ fn density_of(id: i32, row: i32, suits: f32, place: CanopyPlace) -> f32 {
 // Share of its density that a population of a biome has.
 fn canopy_density(id: i32, row: i32, place: CanopyPlace) -> f32 { return density_of(id, row, 1.0, place); }
 
-// Share of its density that the population has whose density is shown. `wet`: share of the pixel that is under rivers and lakes.
+// Share of its density that the population has whose density is shown. `wet`: share of the pixel that is under rivers
+// and lakes.
 fn shown_density(biome: i32, place: CanopyPlace, wet: f32) -> f32 {
     let in_water = biome_param(BIOME_SHOWN, CANOPY_ROW + 4).z < 0.0;
     if biome_param(BIOME_SHOWN, SHOWN_ROW).x == 0.0 || (wet > 0.5 && !in_water) { return 0.0; }
