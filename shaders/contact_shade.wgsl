@@ -3,12 +3,12 @@
 #include "surface.wgsl"
 
 // Radius around a point within which others shade it: metres, and pixels at the most.
-const CONTACT_M: f32 = 0.45;
-const CONTACT_PIXELS: f32 = 28.0;
+const CONTACT_M: f32 = 1.0;
+const CONTACT_PIXELS: f32 = 48.0;
 // Distances in metres between which the shade fades.
-const CONTACT_FAR_M: vec2f = vec2f(25.0, 45.0);
+const CONTACT_FAR_M: vec2f = vec2f(40.0, 80.0);
 // Depths that are read, and turns of the spiral that they lie on.
-const CONTACT_TAPS: i32 = 12;
+const CONTACT_TAPS: i32 = 14;
 const CONTACT_TURNS: f32 = 5.0;
 // Strength of the shade, and the most of the light that it takes: some comes from the sun past what stands there.
 const CONTACT_STRENGTH: f32 = 1.1;
@@ -45,7 +45,8 @@ fn contact_light(pixel: vec2i, distance_m: f32) -> f32 {
     for (var i = 0; i < CONTACT_TAPS; i++) {
         let out = (f32(i) + 0.5) / f32(CONTACT_TAPS);
         let angle = turn + 6.2832 * CONTACT_TURNS * out;
-        let at = pixel + vec2i(round(reach * out * vec2f(cos(angle), sin(angle))));
+        // More of them lie close by, where thin stems stand.
+        let at = pixel + vec2i(round(reach * out * sqrt(out) * vec2f(cos(angle), sin(angle))));
         let away = seen_place_m(clamp(at, vec2i(0), last)) - place_m;
         let near = saturate1(1.0 - dot(away, away) / (reach_m * reach_m));
         let over = max(dot(away, facing) - CONTACT_BIAS * distance_m, 0.0);

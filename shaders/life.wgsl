@@ -14,8 +14,8 @@ struct Surface {
     @location(0) rel_m: vec3f,
     @location(1) normal: vec3f,
     @location(2) albedo: vec3f,
-    // Share of the second colour, and of the sky that is seen
-    @location(3) look: vec2f,
+    // Share of the second colour, and of the sky that is seen; height over the ground, metres
+    @location(3) look: vec3f,
     @location(4) @interpolate(flat) sun: vec4f,
     @location(5) @interpolate(flat) sky: vec3f,
     // Place in the form, metres, moved by another way in each object; strength of the mottling
@@ -54,7 +54,7 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     let hued = hue_of_one(leaf, fract(second.a * 157.7) + STAND_HUES * light.stand) * (1.0 + STANDS * light.stand);
     out.albedo = mix(first.rgb * first.rgb, select(leaf, hued, kind_of(instance) >= LEAFY), in.look.x);
     out.albedo *= tint_of(in);
-    out.look = in.look.xy;
+    out.look = vec3f(in.look.xy, (in.position.z - sunk_of(instance)) * instance.size_m);
     out.sun = vec4f(light.sun, light.visible);
     out.sky = light.sky;
     let sun = body.suns[0].dir;
@@ -92,6 +92,24 @@ fn raised(n: vec3f, along: mat2x3f, rise: vec2f) -> vec3f {
     return normalize(abs(area) * n - clamp(slope, vec3f(-1.5 * abs(area)), vec3f(1.5 * abs(area))));
 }
 
+// Height over the ground up to which soil and moss stain wood and stone, metres, and as a share of the height of
+// the object; factor on the colour where they cover it.
+const SOIL_M: f32 = 0.45;
+const SOIL_SHARE: f32 = 0.3;
+const SOIL_TINT: vec3f = vec3f(0.42, 0.40, 0.28);
+
+// Factor on the albedo near the ground. `above_m`: height over it.
+fn soiled(kind: u32, leaf: f32, above_m: f32, size_m: f32, p_m: vec3f) -> vec3f {
+    let reach_m = min(SOIL_M, SOIL_SHARE * size_m);
+    let is_wood = kind >= LEAFY && kind != BLADED && leaf < 0.5;
+    // Where there is no water there is no soil.
+    let is_stained = is_wood || (kind == ROCK && body.has_sea != 0u);
+    if above_m > reach_m || !is_stained { return vec3f(1.0); }
+    let ragged = 0.6 * (lattice_noise(p_m / (0.3 * reach_m)) - 0.5);
+    let share = 1.0 - smoothstep(0.0, 1.0, max(above_m / reach_m, 0.0) + ragged);
+    return mix(vec3f(1.0), SOIL_TINT, share);
+}
+
 // Albedo of the ground around, which lights the undersides of objects.
 const GROUND_ALBEDO: f32 = 0.25;
 
@@ -116,7 +134,8 @@ fn fragment(in: Surface) -> Output {
     let lit = (front + behind) * smoothstep(0.0, 0.75, in.look.y);
     let open = (0.5 + 0.5 * dot(n, up)) * in.look.y;
     let mottled = 1.0 + in.place_m.w * 1.3 * (lattice_noise(in.place_m.xyz * (11.0 / in.size_m)) - 0.5);
-    let albedo = in.albedo * material.tint * (mottled * in.level_light);
+    let soil = soiled(in.material, leaf, in.look.z, in.size_m, in.place_m.xyz);
+    let albedo = in.albedo * material.tint * soil * (mottled * in.level_light);
     var shade = object_shade(in.rel_m + l * (OWN_LEAVES * leaf * in.size_m), n);
     shade.sun -= (1.0 - shade.known.x) * (1.0 - in.among);
     let sky = in.sky * mix(1.0, shade.sky, 1.0 - 0.6 * leaf);

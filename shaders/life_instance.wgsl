@@ -15,7 +15,8 @@ struct Instance {
     horizon: vec2u,
     // Area of neighbours that shade the object, for each area of ground
     neighbours: f32,
-    // Kind of material (src/render/life/material.rs); in the upper half the width of an object of the population, cm
+    // From the lowest bit on: kind of material (src/render/life/material.rs), 8 bits; share of the height that is under
+    // the ground, 255 for all, 8 bits; width of an object of the population, cm, 16 bits
     material: u32,
 }
 
@@ -29,4 +30,7 @@ struct ObjectLight {
     stand: f32,
 }
 
-fn kind_of(instance: Instance) -> u32 { return instance.material & 0xffffu; }
+fn kind_of(instance: Instance) -> u32 { return instance.material & 0xffu; }
+
+// Share of its height that is under the ground.
+fn sunk_of(instance: Instance) -> f32 { return f32((instance.material >> 8u) & 0xffu) / 255.0; }

@@ -4,13 +4,18 @@
 #include "shared.wgsl"
 
 // Period of furrows around a trunk and along it, metres; depth of a furrow as a share of it.
-const FURROW_M: vec2f = vec2f(0.07, 0.42);
+const FURROW_M: vec2f = vec2f(0.075, 0.75);
 const FURROW_DEPTH: f32 = 0.15;
+// Width of a furrow, as a share of the way from one plate to the next.
+const FURROW_WIDTH: f32 = 0.3;
 // Period of the stains of bark along a trunk, metres.
 const STAIN_M: f32 = 0.9;
 // Periods of the grain of rock, metres, and its height as a share of the period.
 const GRAIN_M: vec3f = vec3f(0.45, 0.13, 0.035);
 const GRAIN_HEIGHT: f32 = 0.10;
+// Widths of the faces along which rock broke, as shares of its height, and how far they are turned.
+const FACES: vec2f = vec2f(0.34, 0.12);
+const FACE_TILTS: vec2f = vec2f(0.45, 0.35);
 // Width of a leaf, metres.
 const LEAF_M: f32 = 0.09;
 // How leaves and twigs of one object differ in colour.
@@ -29,15 +34,15 @@ struct ObjectMaterial {
     tint: vec3f,
     // Height of the surface over that of the mesh, metres
     height_m: f32,
-    // Tilt of a leaf against its twig
+    // Tilt of a leaf against its twig, of a face of rock against the mesh
     tilt: vec3f,
     // Share of a leaf that is gap
     gap: f32,
 }
 
 const PLAIN: ObjectMaterial = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
-// Means of `furrows`, of cracks, and of the darkness at the edge of a leaf where it is not cut out: by sampling.
-const FURROWS_MEAN: f32 = 0.73;
+// Means of `plates`, of cracks, and of the darkness at the edge of a leaf where it is not cut out: by sampling.
+const PLATES_MEAN: f32 = 0.54;
 const CRACKS_MEAN: f32 = 0.14;
 const EDGE_MEAN: f32 = 0.05;
 
@@ -58,12 +63,32 @@ fn lattice_noise(p: vec3f) -> f32 {
 // How well a pattern of a period is seen at a width of the pixel.
 fn clear_at(period_m: f32, pixel_m: f32) -> f32 { return 1.0 - smoothstep(0.15, 0.5, pixel_m / period_m); }
 
-// Furrows of one width: 0 in their depth, 1 on the plates between them.
-fn furrows(q: vec3f) -> f32 { return smoothstep(0.0, 0.28, abs(lattice_noise(q) - 0.5) * 2.0); }
+// Plates of bark, cells about points of a lattice of length 1 whose columns are shifted against one another: 0 in the
+// furrows between them, 1 on them (x); a random number of the plate (y).
+fn plates(q: vec3f) -> vec2f {
+    let first = floor(q.xy - 0.5);
+    var nearest = vec2f(9.0);
+    var found = 0.5;
+    for (var i = 0; i < 8; i++) {
+        let column = first + vec2f(f32(i & 1), f32((i >> 1u) & 1));
+        let z = q.z - lattice_value(vec3i(vec2i(column), 0));
+        let cell = vec3f(column, floor(z - 0.5) + f32(i >> 2u));
+        let random = unit_from_hash(hash3(vec3u(vec3i(cell))));
+        let away = vec3f(q.xy, z) - cell - 0.25 - 0.5 * random;
+        let distance = dot(away, away);
+        if distance < nearest.x {
+            nearest = vec2f(distance, nearest.x);
+            found = random.x;
+        } else {
+            nearest.y = min(nearest.y, distance);
+        }
+    }
+    return vec2f(smoothstep(0.03, FURROW_WIDTH, sqrt(nearest.y) - sqrt(nearest.x)), found);
+}
 
 fn bark(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
     var out = PLAIN;
-    let bend = 0.05 * (lattice_noise(p_m * 5.3) - 0.5);
+    let bend = 0.12 * (lattice_noise(p_m * vec3f(5.3, 5.3, 2.3)) - 0.5);
     let stain = lattice_noise(p_m / vec3f(0.5, 0.5, 1.0) / STAIN_M) - 0.5;
     out.tint = 1.0 + stain * vec3f(0.38, 0.30, 0.34);
     for (var i = 0; i < 2; i++) {
@@ -71,13 +96,31 @@ fn bark(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
         let clear = clear_at(period_m.x, pixel_m);
         if clear <= 0.0 { break; }
         let at = (p_m + bend) / period_m.xxy + 31.0 * f32(i);
-        // Plates between furrows are rough.
-        let rough = lattice_noise(at * vec3f(2.3, 2.3, 3.1)) - 0.5;
-        let height = 0.6 * (furrows(at) - FURROWS_MEAN) + 0.7 * rough;
-        out.tint *= 1.0 + clear * select(0.55, 0.4, i == 1) * height;
+        let plate = plates(at);
+        // Plates differ, and are rough along their length.
+        let rough = lattice_noise(at * vec3f(3.7, 3.7, 1.9)) - 0.5;
+        let height = plate.x - PLATES_MEAN + 0.35 * rough;
+        out.tint *= 1.0 + clear * select(0.7, 0.4, i == 1) * (height + 0.4 * (plate.y - 0.5));
         out.height_m += clear * FURROW_DEPTH * period_m.x * height;
     }
     return out;
+}
+
+// A random number of the cell about a point of a lattice of length 1 that a place lies in.
+fn cell_random(q: vec3f) -> vec3f {
+    let first = floor(q - 0.5);
+    var nearest = 9.0;
+    var found = vec3f(0.5);
+    for (var i = 0; i < 8; i++) {
+        let cell = first + vec3f(f32(i & 1), f32((i >> 1u) & 1), f32(i >> 2u));
+        let random = unit_from_hash(hash3(vec3u(vec3i(cell))));
+        let away = q - cell - 0.25 - 0.5 * random;
+        if dot(away, away) < nearest {
+            nearest = dot(away, away);
+            found = random;
+        }
+    }
+    return found;
 }
 
 fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
@@ -92,6 +135,14 @@ fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
         let crack = select(0.0, 1.0 - smoothstep(0.0, 0.07, abs(noise)) - CRACKS_MEAN, i == 0);
         shade *= 1.0 + clear * (0.55 * noise - 0.35 * crack);
         out.height_m += clear * GRAIN_HEIGHT * period_m * (noise - 0.25 * crack);
+    }
+    // Faces along which it broke: each is turned a little.
+    for (var i = 0; i < 2; i++) {
+        let width_m = FACES[i] * size_m;
+        let clear = clear_at(width_m, pixel_m);
+        if clear <= 0.0 { break; }
+        let bend = 0.3 * (lattice_noise(p_m / (0.7 * width_m) + 3.0) - 0.5);
+        out.tilt += clear * FACE_TILTS[i] * (cell_random(p_m / width_m + bend) - 0.5);
     }
     // Lichen and weather stain the stone.
     let stain = lattice_noise(p_m / (0.35 * max(size_m, 0.6)) + 5.0) - 0.5;

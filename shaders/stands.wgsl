@@ -5,8 +5,10 @@
 // Tiles of the noise of woods and regions, metres, and their strengths: those of all populations.
 const WOODS_M: vec3f = vec3f(340.0, 1900.0, 10500.0);
 const WOODS_SHARES: vec3f = vec3f(0.5, 0.5, 0.4);
-// Tile of the noise of trees of one age, in widths of an object, and its strength.
+// Tile of the noise of objects of one age, in widths of an object and in metres at the least, and its strength. Tufts
+// of one kind grow in patches that are as wide as those of bushes.
 const AGE_WIDTHS: f32 = 8.0;
+const LEAST_AGE_M: f32 = 26.0;
 const AGE_SHARE: f32 = 0.45;
 // Tile of groves in widths of an object.
 const GROVE_WIDTHS: f32 = 24.0;
@@ -33,7 +35,7 @@ fn woods(at_m: vec3f, footprint_m: f32) -> f32 {
 
 // What objects of one age add to it. `width_m`: of an object.
 fn of_one_age(width_m: f32, at_m: vec3f, footprint_m: f32) -> f32 {
-    return AGE_SHARE * stand_noise(AGE_WIDTHS * width_m, at_m, footprint_m).y;
+    return AGE_SHARE * stand_noise(max(AGE_WIDTHS * width_m, LEAST_AGE_M), at_m, footprint_m).y;
 }
 
 // Grove at a place, for objects that stand in groups: a noise of mean 0, -1 to 1.

@@ -50,6 +50,8 @@ pub(crate) struct CanopyLayer {
     pub(crate) width_m: f64,
     /// Mean colour as seen from above (albedo, linear sRGB).
     pub(crate) color: [f64; 3],
+    /// Mean colour as seen from the side.
+    pub(crate) side_color: [f64; 3],
     /// Colour of what has fallen from the objects (albedo, linear sRGB), and the share of the ground that it covers
     /// where they close.
     pub(crate) litter: ([f64; 3], f64),
@@ -67,14 +69,15 @@ impl CanopyLayer {
         let square_m2 = population.height_m.powi(2) * (1.0 + population.height_spread.powi(2) / 3.0);
         let per_m2 = population.per_hectare / HECTARE_M2;
         let shown = 1.0 - population.sunk;
-        let mix = |wood: f64, leaf: f64| wood + (leaf - wood) * cover.part;
         let [wood_color, leaf_color] = population.colors();
+        let color = |part: f64| std::array::from_fn(|c| wood_color[c] + (leaf_color[c] - wood_color[c]) * part);
         Self {
             top: per_m2 * cover.top * square_m2,
             side: per_m2 * cover.side * square_m2 * shown,
             height_m: population.height_m * shown,
             width_m: (4.0 * cover.top * square_m2 / std::f64::consts::PI).sqrt(),
-            color: std::array::from_fn(|c| mix(wood_color[c], leaf_color[c])),
+            color: color(cover.part[0]),
+            side_color: color(cover.part[1]),
             litter: (std::array::from_fn(|c| LITTER_OF[c] * wood_color[c]), population.litter),
             through: through_leaves(population),
             casting: ((population.height_m - CASTING_M[0]) / (CASTING_M[1] - CASTING_M[0])).clamp(0.0, 1.0),

@@ -221,7 +221,8 @@ fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
         Kind::Cold => dice.between(0.3, 0.8),
         _ => dice.between(0.5, 0.95),
     };
-    let dust = if kind == Kind::Temperate { dice.between(0.3, 1.2) } else { dice.between(0.3, 1.4) };
+    // Haze over that of the default air, which is as clear as the Earth's over an ocean far from land.
+    let dust = if kind == Kind::Temperate { dice.between(2.0, 9.0) } else { dice.between(2.0, 11.0) };
     // Red and violet skies were many, and all their planets looked alike: blue stays the strongest.
     let tint = dice.color([0.75, 0.85, 0.95], [1.05, 1.2, 1.1]);
     // Dust of deserts and fumes of hot worlds swallow blue: the air is butterscotch instead of blue.

@@ -32,8 +32,8 @@ pub(crate) struct Cover {
     pub top: f64,
     /// Covered area as seen from the side.
     pub side: f64,
-    /// Mean share of the second colour, as seen from above.
-    pub part: f64,
+    /// Mean share of the second colour, as seen from above and from the side.
+    pub part: [f64; 2],
     /// Mean share of the sky's light that what is seen has, for both angles of the eye.
     pub sky: [f64; 2],
     /// Mean share of the sun's light, for both angles of the sun: seen from above, aslant from the side of the sun, and
@@ -47,7 +47,8 @@ impl Cover {
     pub(crate) fn new(form: &Form, seed: u32) -> Self {
         let [near, mesh] = super::extremes(form, seed);
         let (top, side) = (sight::look_down(&near, 64), sight::look(&near).side);
-        let mut out = Self { top: top.cover.into(), side: side.cover.into(), part: top.part.into(), ..Self::default() };
+        let part = [top.part.into(), side.part.into()];
+        let mut out = Self { top: top.cover.into(), side: side.cover.into(), part, ..Self::default() };
         for turn in 0..TURNS {
             let azimuth = TURN * (f32::from(turn) + 0.35) / f32::from(TURNS);
             let eyes = EYES_DEG.map(|from_zenith_deg| View::new(&mesh, direction(from_zenith_deg, azimuth)));

@@ -100,7 +100,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             of(
                 tree(Crown::Round, [0.66, 0.3, 0.032], [0.95, 0.042], 0.7),
                 18.0,
-                [[0.18, 0.145, 0.11], [0.104, 0.189, 0.047]],
+                [[0.18, 0.145, 0.11], [0.123, 0.183, 0.056]],
                 260.0,
                 [0.35, 90.0],
             )
@@ -115,7 +115,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             of(
                 Form::Conifer(Conifer::default()),
                 18.0,
-                [[0.16, 0.12, 0.095], [0.06, 0.117, 0.046]],
+                [[0.16, 0.12, 0.095], [0.074, 0.113, 0.045]],
                 450.0,
                 [0.35, 120.0],
             )
@@ -130,7 +130,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             of(
                 tree(Crown::Round, [0.62, 0.42, 0.026], [0.8, 0.042], 1.0),
                 17.0,
-                [[0.24, 0.15, 0.1], [0.075, 0.142, 0.056]],
+                [[0.24, 0.15, 0.1], [0.091, 0.137, 0.055]],
                 220.0,
                 [0.4, 100.0],
             )
@@ -145,7 +145,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             of(
                 tree(Crown::Weeping, [0.5, 0.24, 0.026], [0.7, 0.04], 0.5),
                 13.0,
-                [[0.42, 0.4, 0.36], [0.151, 0.235, 0.056]],
+                [[0.42, 0.4, 0.36], [0.166, 0.229, 0.069]],
                 260.0,
                 [0.5, 60.0],
             )
@@ -160,7 +160,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             of(
                 tree(Crown::Column, [0.27, 0.06, 0.032], [1.0, 0.045], 0.35),
                 20.0,
-                [[0.2, 0.17, 0.135], [0.104, 0.198, 0.053]],
+                [[0.2, 0.17, 0.135], [0.126, 0.191, 0.061]],
                 120.0,
                 [0.6, 80.0],
             )
@@ -172,7 +172,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
     ReadyPopulation {
         name: "Palm",
         make: || {
-            of(Form::Palm(Palm::default()), 11.0, [[0.26, 0.22, 0.17], [0.113, 0.217, 0.049]], 120.0, [0.5, 60.0])
+            of(Form::Palm(Palm::default()), 11.0, [[0.26, 0.22, 0.17], [0.137, 0.209, 0.061]], 120.0, [0.5, 60.0])
                 .littered(0.3)
                 .temperatures(20.0, 60.0)
                 .moistures(0.25, 1.0)
@@ -184,7 +184,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             of(
                 tree(Crown::Umbrella, [1.4, 0.36, 0.05], [0.8, 0.05], 0.4),
                 8.0,
-                [[0.18, 0.15, 0.12], [0.133, 0.189, 0.066]],
+                [[0.18, 0.15, 0.12], [0.141, 0.186, 0.07]],
                 14.0,
                 [0.5, 200.0],
             )
@@ -213,7 +213,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             of(
                 tree(Crown::Round, [1.25, 0.0, 0.05], [0.85, 0.1], 0.6),
                 1.8,
-                [[0.17, 0.13, 0.1], [0.113, 0.189, 0.056]],
+                [[0.17, 0.13, 0.1], [0.128, 0.184, 0.062]],
                 140.0,
                 [0.6, 30.0],
             )
@@ -244,7 +244,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                 of(
                     tuft(24, [0.055, 0.55, 0.5], 0.0, false),
                     0.3,
-                    [[0.09, 0.1, 0.035], [0.06, 0.11, 0.025]],
+                    [[0.09, 0.1, 0.035], [0.071, 0.106, 0.031]],
                     60000.0,
                     [0.5, 9.0],
                 )
@@ -278,7 +278,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                 of(
                     tuft(20, [0.028, 0.14, 0.14], 0.35, false),
                     2.0,
-                    [[0.14, 0.09, 0.05], [0.09, 0.13, 0.04]],
+                    [[0.14, 0.09, 0.05], [0.096, 0.128, 0.044]],
                     30000.0,
                     [0.7, 12.0],
                 )
@@ -295,7 +295,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                 of(
                     tuft(9, [0.075, 0.7, 1.0], 0.0, true),
                     0.6,
-                    [[0.06, 0.09, 0.025], [0.048, 0.095, 0.028]],
+                    [[0.065, 0.088, 0.029], [0.059, 0.091, 0.031]],
                     2500.0,
                     [0.6, 15.0],
                 )
@@ -312,7 +312,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
                 of(
                     Form::Cushion(Cushion { lumps: 11, width: 3.4, lumpiness: 0.6, roughness: 0.4, leaves: 0.7 }),
                     0.12,
-                    [[0.035, 0.055, 0.015], [0.08, 0.13, 0.03]],
+                    [[0.039, 0.054, 0.017], [0.089, 0.126, 0.038]],
                     5000.0,
                     [0.7, 8.0],
                 )
@@ -325,7 +325,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
         name: "Column cactus",
         make: || Population {
             sway: 0.0,
-            ..of(Form::Cactus(Cactus::default()), 5.0, [[0.06, 0.1, 0.04], [0.35, 0.31, 0.2]], 30.0, [0.4, 120.0])
+            ..of(Form::Cactus(Cactus::default()), 5.0, [[0.068, 0.098, 0.04], [0.35, 0.31, 0.2]], 30.0, [0.4, 120.0])
                 .temperatures(12.0, 60.0)
                 .moistures(0.02, 0.3)
         },
@@ -337,7 +337,7 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             ..of(
                 Form::Cactus(Cactus { ribs: 20, groove: 0.25, arms: 0, girth: 0.9, spines: 0.7 }),
                 0.7,
-                [[0.055, 0.095, 0.04], [0.42, 0.33, 0.17]],
+                [[0.064, 0.093, 0.039], [0.42, 0.33, 0.17]],
                 60.0,
                 [0.4, 60.0],
             )

@@ -12,7 +12,7 @@ use glam::{DVec3, Vec3};
 /// Most populations that count for the canopy of a biome: those that cover most.
 pub(crate) const LAYERS: usize = 4;
 /// Rows of a population, four numbers each.
-pub(crate) const LAYER_ROWS: usize = 9;
+pub(crate) const LAYER_ROWS: usize = 10;
 /// Rows of a biome.
 pub(crate) const ROWS: usize = LAYERS * LAYER_ROWS;
 /// Share of its area that counts in the choice of populations of a biome for one that stands in few of its places.
@@ -103,7 +103,7 @@ impl CanopyRows {
             Some((population, layer?, *reach_m, planting(index, population)?))
         });
         let layers = layers.map(|(population, layer, reach_m, (channel, is_planted))| {
-            let ([r, g, b], cover) = (layer.color, &layer.cover);
+            let ([r, g, b], [side_r, side_g, side_b], cover) = (layer.color, layer.side_color, &layer.cover);
             let (fallen, littered) = layer.litter;
             let [ground, climate] = rules(population);
             let rows = [
@@ -116,6 +116,7 @@ impl CanopyRows {
                 [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
                 [fallen[0], fallen[1], fallen[2], littered],
                 [layer.through[0], layer.through[1], layer.through[2], f64::from(channel)],
+                [side_r, side_g, side_b, 0.0],
             ];
             Layer {
                 biomes: population.biomes.clone(),

@@ -32,7 +32,8 @@ pub(super) struct Instance {
     layer: u16,
     axis: u16,
     neighbours: f32,
-    material: u16,
+    material: u8,
+    sunk: u8,
     width_cm: u16,
 }
 
@@ -313,7 +314,8 @@ impl Look<'_> {
             layer: self.shade.as_ref().map_or(NO_LAYER, |shade| shade.at.layer as u16),
             axis: self.axis,
             neighbours: self.among.neighbours,
-            material: Material::of(&population.form) as u16,
+            material: Material::of(&population.form) as u8,
+            sunk: (population.sunk.clamp(0.0, 1.0) * 255.0).round() as u8,
             width_cm: (self.among.width_m * 100.0).min(65535.0) as u16,
         }
     }
