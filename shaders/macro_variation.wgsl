@@ -30,6 +30,9 @@ const TAP_WIDTH: f32 = 0.6;
 // A footprint with one tap, as wide as the footprint is long.
 fn plain_slant(footprint_m: f32) -> Slant { return Slant(vec3f(0.0), footprint_m, 1u); }
 
+// Longer side of a footprint.
+fn slant_length_m(slant: Slant) -> f32 { return max(length(slant.long_m), slant.wide_m); }
+
 // Taps along a footprint that is `needed` times as long as wide: several stay sharper than one as wide as it is long.
 fn taps_for(needed: f32, most: u32) -> u32 {
     return min(most, select(select(select(8u, 4u, needed < 5.6), 2u, needed < 2.8), 1u, needed < 1.4));

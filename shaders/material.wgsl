@@ -25,7 +25,7 @@ struct Site {
     spread_m: f32,
     // Change by a metre of height: of the location in the biome table (xy) and of the temperature in °C (z)
     by_height: vec3f,
-    footprint_m: f32,
+    slant: Slant,
     // Macro variation, -1 to 1
     variation: f32,
 }
@@ -135,13 +135,18 @@ struct Mixture {
 }
 
 fn patch_share(tile_m: f32, patches: f32, site: Site) -> f32 {
-    let lod = log2(site.footprint_m * NOISE_TILE_SIDE / tile_m);
+    let lod = log2(site.slant.wide_m * NOISE_TILE_SIDE / tile_m);
     let away = smoothstep(-1.0, 2.5, lod);
     if patches <= 0.0 || away >= 1.0 { return patches; }
-    let at = (body.eye_wrap_far_m + site.rel_m) / tile_m;
-    let noise = textureSampleLevel(noise_tile, repeated, at.zxy, max(lod, 0.0)).g;
     let edge = min(0.12, min(patches, 1.0 - patches));
-    return mix(smoothstep(-edge, edge, patches - noise), patches, away);
+    var sum = 0.0;
+    for (var tap = 0u; tap < site.slant.taps; tap++) {
+        let rel_m = site.rel_m + site.slant.long_m * tap_place(tap, site.slant.taps);
+        let at = (body.eye_wrap_far_m + rel_m) / tile_m;
+        let noise = textureSampleLevel(noise_tile, repeated, at.zxy, max(lod, 0.0)).g;
+        sum += smoothstep(-edge, edge, patches - noise);
+    }
+    return mix(sum / f32(site.slant.taps), patches, away);
 }
 
 // Adds a biome with a weight.
@@ -260,7 +265,7 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     let mixture = mixture_at(site);
     let both = mixture.weights.x + mixture.weights.y;
     let share = mixture.weights.y / max(both, 1e-6);
-    let seen = Seen(site.rel_m, n, up, rel_x, rel_y, site.footprint_m);
+    let seen = Seen(site.rel_m, n, up, rel_x, rel_y, slant_length_m(site.slant));
     // Low quality draws the pattern of the strongest biome only.
     let strongest = select(0, 1, share > 0.5);
     var patterns: array<Pattern, 2>;

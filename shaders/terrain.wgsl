@@ -183,7 +183,7 @@ fn bumped(n: vec3f, rel_m: vec3f, slant: Slant) -> vec3f {
 
 // Inputs of biome and surface rules at a pixel. `at`: location in the biome table.
 fn site_of(
-    in: Ground, pixel_ground: PixelGround, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, variation: f32,
+    in: Ground, pixel_ground: PixelGround, up: vec3f, temperature_c: f32, at: vec2f, slant: Slant, variation: f32,
 ) -> Site {
     let over_sea_m = select(1e9, pixel_ground.height_m - body.sea_level_km * 1000.0, body.has_sea != 0u);
     // As in `climate_at`.
@@ -192,7 +192,7 @@ fn site_of(
     let by_height = vec3f(drier, body.row_per_c * colder - body.row_per_m, -colder);
     return Site(
         at, in.rel_m, dot(pixel_ground.normal, up), pixel_ground.steep, temperature_c, over_sea_m,
-        pixel_ground.plane_m, pixel_ground.spread_m, by_height, footprint_m, variation,
+        pixel_ground.plane_m, pixel_ground.spread_m, by_height, slant, variation,
     );
 }
 
@@ -239,7 +239,7 @@ fn debug_color(in: Ground, pixel_ground: PixelGround, up: vec3f, footprint_m: f3
         case VIEW_NORMAL: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case VIEW_SLOPE: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case VIEW_BIOME: {
-            let site = site_of(in, pixel_ground, up, climate.temperature_c, location, 1.0, 0.0);
+            let site = site_of(in, pixel_ground, up, climate.temperature_c, location, plain_slant(1.0), 0.0);
             return highlighted(biome_param(biome_of(site), 0).rgb, location, vec3f(1.0));
         }
         case VIEW_TEMPERATURE: { return temperature_color((climate.temperature_c + 40.0) / 80.0) * lit; }
@@ -251,7 +251,7 @@ fn debug_color(in: Ground, pixel_ground: PixelGround, up: vec3f, footprint_m: f3
             return textureSampleLevel(map_picture, clamped, up, 0.0).rgb * (0.4 + 0.6 * lit);
         }
         case VIEW_DENSITY: {
-            let site = site_of(in, pixel_ground, up, climate.temperature_c, location, 1.0, 0.0);
+            let site = site_of(in, pixel_ground, up, climate.temperature_c, location, plain_slant(1.0), 0.0);
             let place = canopy_place(in, climate, n, up, v, length(in.rel_m), footprint_m);
             let density = shown_density(biome_of(site), place, pixel_ground.water.x);
             // The sea is dark, so that land is known.
@@ -407,7 +407,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     let climate = climate_at(in, in.height_m);
     let location = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(location)) + abs(dpdy(location))) * vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, pixel_ground, up, climate.temperature_c, location, footprint_m, variation);
+    let site = site_of(in, pixel_ground, up, climate.temperature_c, location, slant, variation);
     var ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     ground.albedo *= splashed(over_sea_m, pixel_ground.spread_m, variation);
     if GIANT {
