@@ -92,11 +92,12 @@ fn raised(n: vec3f, along: mat2x3f, rise: vec2f) -> vec3f {
     return normalize(abs(area) * n - clamp(slope, vec3f(-1.5 * abs(area)), vec3f(1.5 * abs(area))));
 }
 
-// Height over the ground up to which soil and moss stain wood and stone, metres, and as a share of the height of
-// the object; factor on the colour where they cover it.
+// Height over the ground up to which soil and moss stain wood and stone, metres, and as a share of the height of the
+// object; factor on the colour where they cover it, and the share of that which stone takes.
 const SOIL_M: f32 = 0.45;
 const SOIL_SHARE: f32 = 0.3;
 const SOIL_TINT: vec3f = vec3f(0.42, 0.40, 0.28);
+const SOIL_ON_STONE: f32 = 0.5;
 
 // Factor on the albedo near the ground. `above_m`: height over it.
 fn soiled(kind: u32, leaf: f32, above_m: f32, size_m: f32, p_m: vec3f) -> vec3f {
@@ -107,7 +108,7 @@ fn soiled(kind: u32, leaf: f32, above_m: f32, size_m: f32, p_m: vec3f) -> vec3f 
     if above_m > reach_m || !is_stained { return vec3f(1.0); }
     let ragged = 0.6 * (lattice_noise(p_m / (0.3 * reach_m)) - 0.5);
     let share = 1.0 - smoothstep(0.0, 1.0, max(above_m / reach_m, 0.0) + ragged);
-    return mix(vec3f(1.0), SOIL_TINT, share);
+    return mix(vec3f(1.0), SOIL_TINT, share * select(1.0, SOIL_ON_STONE, kind == ROCK));
 }
 
 // Albedo of the ground around, which lights the undersides of objects.

@@ -115,9 +115,9 @@ pub fn share_at(distance_m: f64, reach_m: f64) -> f64 {
 /// Heights of an object within which it is drawn, and the most objects of a population around the eye.
 fn limits(quality: Quality) -> (f64, f64) {
     match quality {
-        Quality::Low => (60.0, 12_000.0),
-        Quality::Medium => (130.0, 80_000.0),
-        Quality::High => (260.0, 300_000.0),
+        Quality::Low => (60.0, 8_000.0),
+        Quality::Medium => (180.0, 80_000.0),
+        Quality::High => (360.0, 300_000.0),
     }
 }
 
