@@ -283,8 +283,8 @@ impl Rivers {
         2 * far >= dirs.len() - 1
     }
 
-    /// Evaluates points near each other, in order: one answer for each direction. Without `slopes` gradients are 0, and
-    /// it takes half the time.
+    /// Evaluates points near each other, in order: one answer for each direction. Without `slopes` gradients are 0, which
+    /// takes less time.
     pub(crate) fn evaluate(
         &self,
         dirs: &[DVec3],
