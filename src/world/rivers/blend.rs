@@ -131,6 +131,8 @@ impl Sums {
     }
 
     /// Takes in a piece, by its number, at some points. `SLOPES`: with gradients.
+    // One loop over a dozen lanes.
+    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     pub(super) fn take_in<const SLOPES: bool>(
         &mut self,
