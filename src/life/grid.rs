@@ -12,6 +12,8 @@ const CELL_OBJECTS: f64 = 100.0;
 const SIDE_M: [f64; 2] = [4.0, 2000.0];
 /// Share of its square within which a candidate lies, so that neighbours keep apart.
 const JITTER: f64 = 0.86;
+/// Share by which a sum of angles may be wrong, with room to spare.
+const ROUNDING: f64 = 1e-9;
 /// Square metres of a hectare.
 pub(super) const HECTARE_M2: f64 = 10_000.0;
 
@@ -26,11 +28,11 @@ pub(super) struct Grid {
     most_per_m2: f64,
 }
 
-/// A candidate: a place where an object may stand.
+/// A candidate: a place where an object may stand. Its direction is [`NodeId::direction`] of its cell and place, which
+/// takes longer to find than the rest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) id: u64,
-    pub(super) dir: DVec3,
     /// Place in the cell, 0 to 1.
     pub(super) place: [f64; 2],
     /// Rank, 0 to 1: it stands if the rank is below the share of the greatest density that suits the place.
@@ -56,14 +58,14 @@ impl Grid {
     /// The candidates of a cell, in rows.
     pub(super) fn candidates(&self, cell: NodeId) -> impl Iterator<Item = Candidate> {
         let (count, share) = self.count_of(cell);
-        let seed = self.seed;
+        let dice = Dice::of_cell(self.seed, cell);
         (0..count * count).map(move |lane| {
-            let mut dice = Dice::new(seed, cell, lane);
+            let mut dice = dice.lane(lane);
             let id = dice.id();
             let square = [lane % count, lane / count].map(f64::from);
             let place = square.map(|corner| (corner + 0.5 + JITTER * (dice.next() - 0.5)) / f64::from(count));
             let rank = dice.next() / share;
-            Candidate { id, dir: cell.direction(place[0], place[1]), place, rank, dice }
+            Candidate { id, place, rank, dice }
         })
     }
 
@@ -73,7 +75,7 @@ impl Grid {
         let (_, s, t) = cube::face_point(dir);
         let side = f64::from(1_u32 << cell.level);
         let within = |w: f64, corner: u32| ((w + 1.0) * 0.5 * side - f64::from(corner)).clamp(0.0, 1.0);
-        Candidate { id: dice.id(), dir, place: [within(s, cell.x), within(t, cell.y)], rank: 0.0, dice }
+        Candidate { id: dice.id(), place: [within(s, cell.x), within(t, cell.y)], rank: 0.0, dice }
     }
 
     /// Candidates along a side of a cell, and the share of them that stands where everything suits them.
@@ -102,15 +104,15 @@ impl Grid {
         let mut open: Vec<NodeId> = NodeId::roots().into();
         while let Some(node) = open.pop() {
             let middle = node.direction(0.5, 0.5);
-            let half_rad = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)]
-                .into_iter()
-                .map(|(u, v)| angle(middle, node.direction(u, v)))
-                .fold(0.0, f64::max);
-            if angle(middle, dir) > reach_rad + half_rad {
+            let corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)].map(|(u, v)| node.direction(u, v));
+            let half_rad = corners.map(|corner| angle(middle, corner)).into_iter().fold(0.0, f64::max);
+            let away_rad = angle(middle, dir);
+            if away_rad > reach_rad + half_rad {
                 continue;
             }
-            if node.level == self.level {
-                found.push(node);
+            // The sides of a node are great circles, so that no point of it is farther from its middle than a corner.
+            if node.level == self.level || (away_rad + half_rad) * (1.0 + ROUNDING) < reach_rad {
+                found.extend(node.descendants(self.level));
             } else {
                 open.extend(node.children());
             }
@@ -137,4 +139,30 @@ impl Grid {
 /// Angle between unit vectors; precise where it is small.
 pub(super) fn angle(a: DVec3, b: DVec3) -> f64 {
     2.0 * libm::asin((0.5 * (a - b).length()).min(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::spread;
+
+    #[test]
+    fn cells_within_a_disc_are_all_that_touch_it_in_order() {
+        let planet = Planet { radius_km: 3.0, ..Planet::default() };
+        let grid = Grid::new(&planet, &Population { per_hectare: 2.0, ..Population::default() });
+        assert!(grid.level > 2, "{}", grid.level);
+        for (dir, radius_m) in spread(12).zip([0.0, 10.0, 300.0, 900.0, 2500.0, 9000.0].into_iter().cycle()) {
+            let touches = |node: &NodeId| {
+                let middle = node.direction(0.5, 0.5);
+                let corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)];
+                let half_rad =
+                    corners.map(|(u, v)| angle(middle, node.direction(u, v))).into_iter().fold(0.0, f64::max);
+                angle(middle, dir) <= radius_m / 3000.0 + half_rad
+            };
+            let all = NodeId::roots().into_iter().flat_map(|root| root.descendants(grid.level));
+            let mut right: Vec<NodeId> = all.filter(touches).collect();
+            right.sort_unstable();
+            assert_eq!(grid.cells_within(dir, radius_m), right, "{radius_m}");
+        }
+    }
 }

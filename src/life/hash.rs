@@ -9,11 +9,16 @@ use glam::DVec3;
 pub(super) struct Dice(u64);
 
 impl Dice {
-    /// The sequence of a candidate: number `lane` of a cell of a population with a seed.
-    pub(super) fn new(seed: u64, cell: NodeId, lane: u32) -> Self {
+    /// The sequence of a cell of a population with a seed.
+    pub(super) fn of_cell(seed: u64, cell: NodeId) -> Self {
         let node =
             (u64::from(cell.x) << 32 | u64::from(cell.y)) ^ (cell.face as u64) << 61 ^ u64::from(cell.level) << 56;
-        Self(mix_bits(mix_bits(seed ^ mix_bits(node)) ^ u64::from(lane)))
+        Self(mix_bits(seed ^ mix_bits(node)))
+    }
+
+    /// The sequence of a candidate, by its number in its cell.
+    pub(super) fn lane(self, lane: u32) -> Self {
+        Self(mix_bits(self.0 ^ u64::from(lane)))
     }
 
     /// The sequence of an object that is placed by hand, by its direction.

@@ -8,9 +8,13 @@ use crate::sphere::{NodeId, geo};
 use crate::terrain::Terrain;
 use glam::{DMat3, DQuat, DVec3};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// Cells that are placed at a time: it bounds the memory of their soil.
 const PART_CELLS: usize = 4096;
+
+/// Cells of one population and soil that are placed together.
+const RUN_CELLS: usize = 16;
 
 /// An object that stands on the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,8 +112,8 @@ impl Terrain {
     /// [`TooMany`]: the part is so large that more than [`Terrain::MOST_INSTANCES`] may stand there.
     pub fn instances(&self, dir_planet: DVec3, radius_m: f64) -> Result<Vec<Instance>, TooMany> {
         let (dir, planet_m) = (dir_planet.normalize_or(DVec3::Z), self.planet().radius_m());
-        let reach_rad = radius_m / planet_m;
-        self.instances_where(dir, radius_m, &[], &|at| angle(at, dir) <= reach_rad)
+        let is_within = WithinAngle::new(radius_m / planet_m);
+        self.instances_where(dir, radius_m, &[], &|at| is_within.holds(at, dir))
     }
 
     /// The objects of some populations, or of all if none is named, within `radius_m` of a direction whose place a
@@ -129,7 +133,7 @@ impl Terrain {
         });
         let mut found: Vec<Instance> = Vec::new();
         self.place_cells(cells.collect(), &|instance| takes(instance.dir_planet), &mut |part| found.extend(part));
-        found.sort_unstable_by_key(|instance| (instance.id, instance.population));
+        found.sort_by_cached_key(|instance| (instance.id, instance.population));
         Ok(found)
     }
 
@@ -147,10 +151,46 @@ impl Terrain {
         for part in cells.chunks(PART_CELLS) {
             let mut soils = Soils::default();
             soils.add(self, part.iter().filter_map(|(soil, ..)| *soil));
-            let placed = part.par_iter().map_init(PlacementScratch::default, |memory, (soil, placement, cell)| {
-                placement.place(self, *cell, soils.get(*soil), memory)
+            let runs: Vec<_> = part.chunk_by(|a, b| a.0 == b.0 && a.1.index == b.1.index).collect();
+            let runs: Vec<_> = runs.into_iter().flat_map(|run| run.chunks(RUN_CELLS)).collect();
+            let placed = runs.par_iter().map_init(Placing::default, |Placing { memory, cells }, run| {
+                let mut placed = Vec::new();
+                if let [(soil, placement, _), ..] = run {
+                    cells.clear();
+                    cells.extend(run.iter().map(|(.., cell)| *cell));
+                    placement.place(self, cells, soils.get(*soil), memory, &mut placed);
+                    placed.retain(takes);
+                }
+                placed
             });
-            each(placed.flatten_iter().filter(|instance| takes(instance)).collect());
+            placed.collect::<Vec<_>>().into_iter().for_each(&mut *each);
         }
+    }
+}
+
+/// Memory for placing runs of cells.
+#[derive(Default)]
+struct Placing {
+    memory: PlacementScratch,
+    cells: Vec<NodeId>,
+}
+
+/// Whether two unit vectors are at most an angle apart. Few need the angle itself.
+struct WithinAngle {
+    most_rad: f64,
+    /// Squares of the chords that are certainly within it, and all but certainly beyond.
+    chords2: [f64; 2],
+}
+
+impl WithinAngle {
+    fn new(most_rad: f64) -> Self {
+        let chord = 2.0 * libm::sin(0.5 * most_rad.clamp(0.0, PI));
+        Self { most_rad, chords2: [1.0 - 1e-9, 1.0 + 1e-9].map(|share| chord * chord * share) }
+    }
+
+    fn holds(&self, a: DVec3, b: DVec3) -> bool {
+        let chord2 = a.distance_squared(b);
+        let [within, beyond] = self.chords2;
+        chord2 < within || chord2 <= beyond && angle(a, b) <= self.most_rad
     }
 }

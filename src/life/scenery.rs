@@ -341,7 +341,8 @@ fn needed<'a>(terrain: &Terrain, view: &View, (placements, reaches_m): (&'a [Pla
 
 fn make(terrain: &Terrain, needed: &Needed<'_>, soil: Option<&Soil>, memory: &mut PlacementScratch) -> SceneryCell {
     let planet_m = terrain.planet().radius_m();
-    let instances = needed.placement.place(terrain, needed.id, soil, memory);
+    let mut instances = Vec::new();
+    needed.placement.place(terrain, &[needed.id], soil, memory, &mut instances);
     let objects: Vec<SceneryObject> = instances.iter().map(|instance| object(instance, planet_m)).collect();
     let middle = objects.iter().map(|object| object.foot_planet_m).sum::<DVec3>() / objects.len().max(1) as f64;
     let from_middle = |object: &SceneryObject| object.foot_planet_m.distance(middle);

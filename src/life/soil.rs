@@ -99,9 +99,13 @@ pub(super) struct Offer {
 }
 
 impl Offer {
-    /// The share at a place of a cell in the node, between the points; 0 where water is certainly too far.
-    pub(super) fn at(&self, cell: NodeId, place: [f64; 2]) -> f64 {
-        let [width, x, y] = cell.within(self.id);
+    /// The part of the node that a cell in it takes.
+    pub(super) fn part(&self, cell: NodeId) -> [f64; 3] {
+        cell.within(self.id)
+    }
+
+    /// The share at a place of a part of the node, between the points; 0 where water is certainly too far.
+    pub(super) fn at(&self, [width, x, y]: [f64; 3], place: [f64; 2]) -> f64 {
         let last = (SIDE - 1) as f64;
         let at = [x + place[0] * width, y + place[1] * width].map(|share| (share * last).clamp(0.0, last));
         let corner = at.map(|at| (at as usize).min(SIDE - 2));

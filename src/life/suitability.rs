@@ -1,6 +1,7 @@
 //! How well a place suits a population: the density there as a share of the greatest.
 
 use crate::planet::{Planet, Population};
+use crate::simd::{Simd, for_each_simd};
 use crate::terrain::edits::Planting;
 use crate::terrain::{Sample, noise};
 use glam::DVec3;
@@ -72,17 +73,28 @@ impl Suitability {
         self.population.in_water || !(is_wet || is_shore)
     }
 
-    /// Share of the objects that groups leave at a direction: from `1 - clumping` to `1 + clumping`, over the greatest.
-    pub(super) fn clumping(&self, dir: DVec3, radius_m: f64, seed: u32) -> f64 {
-        let clumping = self.population.clumping;
-        if clumping <= 0.0 {
-            return 1.0;
-        }
-        let [x, y, z] = noise::skew((dir * (radius_m / self.population.clump_m)).to_array()).map(noise::split::<f64>);
-        let noise = noise::value([x.0, y.0, z.0], [x.1, y.1, z.1], seed);
-        (1.0 + clumping * (2.0 * noise).clamp(-1.0, 1.0)) / (1.0 + clumping)
+    /// Whether groups leave less than all objects anywhere.
+    pub(super) fn has_groups(&self) -> bool {
+        self.population.clumping > 0.0
+    }
+
+    /// Finds the shares of the objects that groups leave at directions, one each: from `1 - clumping` to
+    /// `1 + clumping`, over the greatest. `noise`: radius of the planet in metres, and seed.
+    pub(super) fn find_clumpings(&self, simd: Simd, dirs: &[DVec3], noise: (f64, u32), shares: &mut [f64]) {
+        let Population { clumping, clump_m, .. } = self.population;
+        clumpings(simd, dirs, noise.0 / clump_m, clumping, noise.1, shares);
     }
 }
+
+#[inline(always)]
+fn clumpings_body(dirs: &[DVec3], per_clump: f64, clumping: f64, seed: u32, shares: &mut [f64]) {
+    for (dir, share) in dirs.iter().zip(shares) {
+        let [x, y, z] = noise::skew((*dir * per_clump).to_array()).map(noise::split::<f64>);
+        let noise = noise::value([x.0, y.0, z.0], [x.1, y.1, z.1], seed);
+        *share = (1.0 + clumping * (2.0 * noise).clamp(-1.0, 1.0)) / (1.0 + clumping);
+    }
+}
+for_each_simd!(fn clumpings(dirs: &[DVec3], per_clump: f64, clumping: f64, seed: u32, shares: &mut [f64]) = clumpings_body);
 
 /// 1 within a range, 0 from `soft` outside its ends on.
 fn between(x: f64, from: f64, to: f64, soft: f64) -> f64 {

@@ -60,6 +60,16 @@ impl NodeId {
         [child(0), child(1), child(2), child(3)]
     }
 
+    /// All nodes of a level in this one, at least its own, row by row.
+    pub(crate) fn descendants(self, level: u8) -> impl Iterator<Item = NodeId> {
+        let deeper = level.saturating_sub(self.level);
+        let first = [self.x << deeper, self.y << deeper];
+        let side = 1_u32 << deeper;
+        (0..side).flat_map(move |y| {
+            (0..side).map(move |x| NodeId { level: self.level + deeper, x: first[0] + x, y: first[1] + y, ..self })
+        })
+    }
+
     /// Which quarter of its parent this is: 0 or 1 along each axis.
     pub fn quarter(self) -> (usize, usize) {
         ((self.x & 1) as usize, (self.y & 1) as usize)

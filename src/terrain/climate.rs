@@ -6,6 +6,7 @@ use super::landform::Landform;
 use super::points::Points;
 use crate::planet::{CLIMATE_BELTS, Key, Planet, TableRows};
 use crate::simd::Simd;
+use crate::sphere::raster::NearPoints;
 use crate::world::carved::Carved;
 use crate::world::coast::Coast;
 use crate::world::weather::{WARMEST_C, Weather};
@@ -73,23 +74,63 @@ impl CompiledClimate {
     }
 
     /// What world maps say at each point; empty if the climate reads none, or if none serves yet.
-    pub(crate) fn climates_of_maps<'a>(&'a self, dirs_planet: &'a [DVec3]) -> impl Iterator<Item = MapClimate> + 'a {
+    pub(crate) fn climates_of_maps(&self, dirs_planet: &[DVec3]) -> Vec<MapClimate> {
+        let mut found = Vec::new();
+        self.find_climates_of_maps(dirs_planet, &mut MapScratch::default(), &mut found);
+        found
+    }
+
+    /// As [`CompiledClimate::climates_of_maps`], in memory that is used again. Points near each other take least time.
+    pub(crate) fn find_climates_of_maps(
+        &self,
+        dirs_planet: &[DVec3],
+        memory: &mut MapScratch,
+        found: &mut Vec<MapClimate>,
+    ) {
+        found.clear();
         let (coast, weather) = (self.world.coast.map(), self.world.weather.map());
-        let carved = self.world.carved.map();
-        let at = move |&dir: &DVec3| {
-            let inland_rad = coast.map_or(MapClimate::NONE.inland_rad, |coast| coast.inland_rad(dir));
-            let [warmer_c, humidity] = weather.map_or([0.0; 2], |weather| weather.at(dir));
-            let humidity = carved.map_or(humidity, |carved| carved.floodplains.humidity(dir, humidity));
-            MapClimate { inland_rad, warmer_c, humidity }
-        };
-        let dirs = if coast.is_some() || weather.is_some() { dirs_planet } else { &[] };
-        dirs.iter().map(at)
+        if coast.is_none() && weather.is_none() {
+            return;
+        }
+        let MapScratch { points, inland_rad, warmer_c, humidity, wet } = memory;
+        found.resize(dirs_planet.len(), MapClimate::NONE);
+        points.refill(dirs_planet.iter().copied());
+        if let Some(coast) = coast {
+            coast.find_inland_rad(points, inland_rad);
+            for (found, inland_rad) in found.iter_mut().zip(inland_rad) {
+                found.inland_rad = *inland_rad;
+            }
+        }
+        humidity.clear();
+        humidity.resize(dirs_planet.len(), 0.0);
+        if let Some(weather) = weather {
+            weather.find(points, warmer_c, humidity);
+            for (found, warmer_c) in found.iter_mut().zip(warmer_c) {
+                found.warmer_c = *warmer_c;
+            }
+        }
+        if let Some(carved) = self.world.carved.map() {
+            carved.floodplains.raise(points, humidity, wet);
+        }
+        for (found, humidity) in found.iter_mut().zip(humidity) {
+            found.humidity = *humidity;
+        }
     }
 
     /// Keys of the maps that [`CompiledClimate::climates_of_maps`] reads.
     pub(crate) fn map_keys(&self) -> MapKeys {
         [self.world.coast.key(), self.world.weather.key(), self.world.carved.key()]
     }
+}
+
+/// Memory for what world maps say.
+#[derive(Debug, Default)]
+pub(crate) struct MapScratch {
+    points: NearPoints,
+    inland_rad: Vec<f64>,
+    warmer_c: Vec<f64>,
+    humidity: Vec<f64>,
+    wet: Vec<f64>,
 }
 
 /// The inputs of the climate other than height, at a batch of points.

@@ -6,7 +6,7 @@
 //! when the pipeline asks for it, and only where the masks of its layer are not 0: most points need few layers.
 
 use super::Terrain;
-use super::climate::{ClimateInputs, MapClimate};
+use super::climate::{ClimateInputs, MapClimate, MapScratch};
 use super::edits::{self, Begun, Edits, Painted, Span};
 use super::field::Field;
 use super::height::{self, Batch, Heights, LayerFields};
@@ -245,6 +245,7 @@ pub(crate) struct NoiseScratch {
     layers: Vec<Slot>,
     relief: Vec<Slot>,
     climate: [Slot; 2],
+    maps: MapScratch,
     from_maps: Vec<MapClimate>,
     painted: Vec<Painted>,
     near: edits::Near,
@@ -268,7 +269,7 @@ impl NoiseScratch {
 
     /// The inputs of the climate at the points of the batch.
     pub(crate) fn climate(&mut self, terrain: &Terrain, points: &Points) -> ClimateInputs<'_> {
-        let Self { landform, climate, from_maps, painted, near, .. } = self;
+        let Self { landform, climate, maps, from_maps, painted, near, .. } = self;
         if climate[0].claim() {
             for (k, slot) in climate.iter_mut().enumerate() {
                 match terrain.climate.noises() {
@@ -276,8 +277,7 @@ impl NoiseScratch {
                     None => slot.field.value.clear(),
                 }
             }
-            from_maps.clear();
-            from_maps.extend(terrain.climate.climates_of_maps(&points.dirs));
+            terrain.climate.find_climates_of_maps(&points.dirs, maps, from_maps);
             match &terrain.edits {
                 Some(edits) => edits.painted(&points.dirs, near, painted),
                 None => painted.clear(),

@@ -107,7 +107,7 @@ pub(crate) fn make_tile(
     let map_keys = terrain.climate.map_keys();
     let from_maps = match before.parts {
         Some(parts) if parts.map_keys == map_keys => parts.from_maps.clone(),
-        _ => Arc::new(terrain.climate.climates_of_maps(&points.dirs).collect()),
+        _ => Arc::new(terrain.climate.climates_of_maps(&points.dirs)),
     };
 
     let painted = terrain.painted(&points.dirs);

@@ -10,7 +10,7 @@ use super::carved::Carved;
 use super::cells::Cells;
 use super::map::{Inputs, Job, WorldMap};
 use crate::planet::Key;
-use crate::sphere::raster::Raster;
+use crate::sphere::raster::{NearPoints, Raster};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::VecDeque;
@@ -87,15 +87,23 @@ impl Coast {
         Self { distance_rad: Raster::cube(*side, distance_rad.collect()) }
     }
 
-    /// Distance from the sea in radians; 0 in the sea.
-    pub(crate) fn inland_rad(&self, dir_planet: DVec3) -> f64 {
-        self.distance_rad.value(&self.distance_rad.place(dir_planet), 0).max(0.0)
+    /// Finds the distances from the sea at points near each other, as angles: one number for each.
+    pub(crate) fn find_inland_rad(&self, points: &NearPoints, inland_rad: &mut Vec<f64>) {
+        self.distance_rad.values(points, inland_rad);
+        inland_rad.iter_mut().for_each(|inland_rad| *inland_rad = inland_rad.max(0.0));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn inland_rad(coast: &Coast, dir: DVec3) -> f64 {
+        let (mut points, mut inland_rad) = (NearPoints::default(), Vec::new());
+        points.refill(std::iter::once(dir));
+        coast.find_inland_rad(&points, &mut inland_rad);
+        inland_rad[0]
+    }
 
     #[test]
     fn distances_to_a_round_coast_are_right() {
@@ -108,13 +116,14 @@ mod tests {
             let right = (radius_rad - dir.angle_between(middle)).max(0.0);
             // Within a cell of the middle, which is equally far from the whole coast, the raster is rounded off.
             let tolerance = if dir.angle_between(middle) < 0.08 { 0.02 } else { 0.006 };
-            assert!((coast.inland_rad(*dir) - right).abs() < tolerance, "{dir}: {} {right}", coast.inland_rad(*dir));
+            let found = inland_rad(&coast, *dir);
+            assert!((found - right).abs() < tolerance, "{dir}: {found} {right}");
         }
     }
 
     #[test]
     fn without_a_coast_all_is_near_or_all_is_far() {
-        let all = |height_m: f64| Coast::new(&Cells::of(8), 0.0, &[height_m; 6 * 8 * 8]).inland_rad(DVec3::X);
+        let all = |height_m: f64| inland_rad(&Coast::new(&Cells::of(8), 0.0, &[height_m; 6 * 8 * 8]), DVec3::X);
         assert_eq!(all(-5.0), 0.0);
         assert!(all(5.0) > 1e8);
     }

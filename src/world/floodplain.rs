@@ -2,8 +2,7 @@
 
 use super::drainage::Drainage;
 use super::noise::ramp;
-use crate::sphere::raster::Raster;
-use glam::DVec3;
+use crate::sphere::raster::{NearPoints, Raster};
 use rayon::prelude::*;
 
 /// Discharge in m³/s at which a floodplain begins to show, and at which it is wettest.
@@ -45,12 +44,19 @@ impl Floodplains {
         Self(Raster::cube(drainage.side, cells))
     }
 
-    /// The humidity of land at a unit direction where rain alone makes it `humidity`. See
-    /// [`super::weather::Weather::at`].
-    pub(crate) fn humidity(&self, dir: DVec3, humidity: f64) -> f64 {
-        let wet = self.0.value(&self.0.place(dir), 0) / MOST;
-        humidity + (HUMIDITY - humidity).max(0.0) * wet
+    /// Raises the humidities of land that rain alone makes at points near each other. See
+    /// [`super::weather::Weather::at`]. `memory` may hold anything.
+    pub(crate) fn raise(&self, points: &NearPoints, humidity: &mut [f64], memory: &mut Vec<f64>) {
+        self.0.values(points, memory);
+        for (humidity, wet) in humidity.iter_mut().zip(memory) {
+            *humidity = raised(*humidity, *wet);
+        }
     }
+}
+
+/// A humidity where the land is as wet as a texel of the raster says.
+fn raised(humidity: f64, texel: f64) -> f64 {
+    humidity + (HUMIDITY - humidity).max(0.0) * (texel / MOST)
 }
 
 #[cfg(test)]
@@ -72,7 +78,12 @@ mod tests {
         };
         let plains = Floodplains::new(&drainage);
         let dirs = &Cells::of(SIDE).dirs;
-        let at = |column: usize, humidity: f64| plains.humidity(dirs[30 * SIDE + column], humidity);
+        let at = |column: usize, humidity: f64| {
+            let (mut points, mut raised) = (NearPoints::default(), [humidity]);
+            points.refill(std::iter::once(dirs[30 * SIDE + column]));
+            plains.raise(&points, &mut raised, &mut Vec::new());
+            raised[0]
+        };
         assert!(at(river, 0.1) > 0.14 && at(river, 0.1) < 0.5, "{}", at(river, 0.1));
         assert_eq!((at(river, 0.7), at(river + 5, 0.1)), (0.7, 0.1));
     }

@@ -73,6 +73,8 @@ enum Part {
     Frames,
     /// Plants and stones: their meshes, their places, and frames with and without them
     Life,
+    /// Objects that one core places in a second: of the part life, what needs no GPU. Not among all parts
+    Placing,
     /// Nine variations as small pictures
     Thumbnails,
     /// LUTs of the air, on the GPU
@@ -149,6 +151,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if wants(Part::Life) {
         report["life"] = life::measure(&Arc::new(shipped::default_planet()))?;
+    }
+    if args.only == Some(Part::Placing) {
+        report["placing"] = life::placing(&Arc::new(shipped::default_planet()))?;
     }
     if wants(Part::Thumbnails) {
         report["thumbnails"] = json!([thumbnails::measure(first), thumbnails::measure(&shipped::default_planet())]);

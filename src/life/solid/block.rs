@@ -85,7 +85,8 @@ impl Block {
             soils.add_one(terrain, node, scratch);
         }
         let planet_m = terrain.planet().radius_m();
-        let instances = placement.place(terrain, cell, soils.get(node), own);
+        let mut instances = Vec::new();
+        placement.place(terrain, &[cell], soils.get(node), own, &mut instances);
         let solid = |instance: &Instance| {
             let shape = &form.shapes[usize::from(instance.variant) % form.shapes.len()];
             (!shape.parts.is_empty()).then(|| Solid::new(instance, shape, planet_m))

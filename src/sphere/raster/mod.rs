@@ -17,6 +17,7 @@
 //! Coarser levels, each half as fine, serve distant points. Everything is f64 with correctly rounded operations and
 //! `libm`: the same bits on every machine.
 
+mod batch;
 mod cube;
 mod flat;
 mod globe;
@@ -24,6 +25,7 @@ mod near;
 mod spline;
 mod texels;
 
+pub use batch::NearPoints;
 use cube::{Cube, MARGIN};
 pub use cube::{cube_direction, cube_point};
 use flat::Flat;

@@ -2,7 +2,7 @@
 
 /// The four weights of a uniform cubic B-spline and their derivatives, at `t` from the second knot to the third.
 #[inline(always)]
-fn spline(t: f64) -> ([f64; 4], [f64; 4]) {
+pub(super) fn spline(t: f64) -> ([f64; 4], [f64; 4]) {
     let (u, t2) = (1.0 - t, t * t);
     let weights = [
         u * u * u * (1.0 / 6.0),
@@ -15,7 +15,7 @@ fn spline(t: f64) -> ([f64; 4], [f64; 4]) {
 
 /// As `f64::floor` for small numbers, without a call on machines that lack the instruction.
 #[inline(always)]
-fn floor(x: f64) -> f64 {
+pub(super) fn floor(x: f64) -> f64 {
     let whole = x as isize as f64;
     if whole > x { whole - 1.0 } else { whole }
 }

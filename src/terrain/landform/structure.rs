@@ -88,24 +88,27 @@ const CHUNKS: usize = 8;
 struct LayerShares {
     rivers: u64,
     levels: usize,
+    /// Whether they have gradients.
+    slopes: bool,
     dirs: Vec<DVec3>,
     shares: Vec<[Jet; LEVELS + 1]>,
 }
 
 impl LayerShares {
-    fn belongs_to(&self, rivers: &Rivers, dirs: &[DVec3], levels: usize) -> bool {
-        self.rivers == rivers.number() && self.levels == levels && self.dirs == dirs
+    fn belongs_to(&self, rivers: &Rivers, dirs: &[DVec3], slopes: bool, levels: usize) -> bool {
+        let is_enough = self.slopes || !slopes;
+        self.rivers == rivers.number() && self.levels == levels && is_enough && self.dirs == dirs
     }
 }
 
 impl Memory {
     /// Evaluates rivers at the points of a chunk, which becomes the newest.
-    fn evaluate(&mut self, rivers: &Rivers, dirs: &[DVec3], spacing_rad: f64, levels: usize) {
-        rivers.evaluate(dirs, levels, &mut self.cache, &mut self.points);
+    fn evaluate(&mut self, rivers: &Rivers, dirs: &[DVec3], slopes: bool, spacing_rad: f64, levels: usize) {
+        rivers.evaluate(dirs, slopes, levels, &mut self.cache, &mut self.points);
         // Queries ask for one chunk at a time.
         self.newest = if spacing_rad > 0.0 { (self.newest + 1) % CHUNKS } else { 0 };
         let kept = &mut self.chunks[self.newest];
-        (kept.rivers, kept.levels) = (rivers.number(), levels);
+        (kept.rivers, kept.levels, kept.slopes) = (rivers.number(), levels, slopes);
         kept.dirs.clear();
         kept.dirs.extend_from_slice(dirs);
         kept.shares.clear();
@@ -121,10 +124,11 @@ pub(super) fn layer_shares(
     answer: impl FnOnce(&[[Jet; LEVELS + 1]], usize, &[usize]),
 ) {
     let (levels, seen) = levels_of(rivers, chunk);
+    let slopes = !chunk.spacings_rad.is_empty();
     MEMORY.with_borrow_mut(|memory| {
-        let kept = memory.chunks.iter().position(|kept| kept.belongs_to(rivers, chunk.dirs, levels));
+        let kept = memory.chunks.iter().position(|kept| kept.belongs_to(rivers, chunk.dirs, slopes, levels));
         let kept = kept.unwrap_or_else(|| {
-            memory.evaluate(rivers, chunk.dirs, chunk.point_spacing_rad, levels);
+            memory.evaluate(rivers, chunk.dirs, slopes, chunk.point_spacing_rad, levels);
             memory.newest
         });
         answer(&memory.chunks[kept].shares, levels, &seen[..chunk.spacings_rad.len()]);
@@ -152,8 +156,8 @@ pub(crate) fn coarsest_spacing_rad(side: usize) -> f64 {
 pub(crate) fn river_points(rivers: &Rivers, dirs: &[DVec3], spacing_rad: f64, answer: impl FnOnce(&[RiverPoint])) {
     let levels = rivers.levels_for(spacing_rad, VALUE_POINTS);
     MEMORY.with_borrow_mut(|memory| {
-        if !memory.chunks[memory.newest].belongs_to(rivers, dirs, levels) {
-            memory.evaluate(rivers, dirs, spacing_rad, levels);
+        if !memory.chunks[memory.newest].belongs_to(rivers, dirs, false, levels) {
+            memory.evaluate(rivers, dirs, false, spacing_rad, levels);
         }
         answer(&memory.points);
     });
@@ -186,7 +190,8 @@ impl Evaluate for Structure {
         let Some(rivers) = self.solved.rivers() else { return };
         let (levels, seen) = levels_of(&rivers, chunk);
         MEMORY.with_borrow_mut(|memory| {
-            memory.evaluate(&rivers, chunk.dirs, chunk.point_spacing_rad, levels);
+            let slopes = !chunk.spacings_rad.is_empty();
+            memory.evaluate(&rivers, chunk.dirs, slopes, chunk.point_spacing_rad, levels);
             let Memory { cache, points, flows, .. } = memory;
             for (value, point) in scratch.sums.value.iter_mut().zip(&*points) {
                 *value += point.height_m;

@@ -11,10 +11,9 @@
 //! reaches are equally far. Nothing has a border: cells, blocks and faces do not show. Sums run in the order of the
 //! pieces, which does not depend on who asks.
 
-use super::block::Block;
-use super::channel::Cut;
 use super::reach::Line;
 use glam::DVec3;
+use std::ops::Range;
 
 /// Keeps weights finite on a reach.
 const TINY: f64 = 1e-24;
@@ -70,91 +69,145 @@ pub(super) struct Level {
     pub(super) nearest: Option<Nearest>,
 }
 
-/// A point against one piece.
+/// A point against the channel of one piece.
 pub(super) struct Foot {
     pub(super) share: f64,
     /// Gradient of the share.
     pub(super) share_gradient: DVec3,
-    /// Height of the banks above the start of the piece, their line drawn out beyond its ends, and how that varies with
-    /// the share.
-    bank_m: f64,
-    bank_slope_m: f64,
     pub(super) offset: DVec3,
     pub(super) distance2: f64,
 }
 
-/// None beyond the influence of the piece.
-#[inline(always)]
-fn foot(line: &Line, dir: DVec3) -> Option<Foot> {
-    let v = dir - line.start;
-    let along = v.dot(line.along) * line.per_length2;
-    let share = along.clamp(0.0, 1.0);
-    let straight = v - line.along * share;
-    // The part along the ground alone: the piece lies a little below it.
-    let offset = straight - dir * straight.dot(dir);
-    let distance2 = offset.dot(offset);
-    if distance2 * line.per_influence2 >= 1.0 {
-        return None;
+impl Foot {
+    #[inline(always)]
+    pub(super) fn new(line: &Line, dir: DVec3) -> Self {
+        let v = dir - line.start;
+        let along = v.dot(line.along) * line.per_length2;
+        let share = along.clamp(0.0, 1.0);
+        let straight = v - line.along * share;
+        // The part along the ground alone: the piece lies a little below it.
+        let offset = straight - dir * straight.dot(dir);
+        let share_gradient = if share == along { line.along * line.per_length2 } else { DVec3::ZERO };
+        Self { share, share_gradient, offset, distance2: offset.dot(offset) }
     }
-    let share_gradient = if share == along { line.along * line.per_length2 } else { DVec3::ZERO };
-    // Uphill of the start the line of the banks bends, so that it stays below its greatest rise.
-    let line_m = line.bank_change_m * along.min(line.last_share);
-    let bent = if line_m > 0.0 { line.rise_m / (line.rise_m + line_m) } else { 1.0 };
-    let bank_slope_m = if along <= line.last_share { line.bank_change_m * bent * bent } else { 0.0 };
-    Some(Foot { share, share_gradient, bank_m: line_m * bent, bank_slope_m, offset, distance2 })
 }
 
-/// The reaches of a block near a direction. `cut` takes in their channels: with it, the number of the level, and
-/// whether that is the last one.
-#[inline(always)]
-pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], mut cut: Option<(&mut Cut, usize, bool)>) -> Level {
-    let (mut weights, mut sum) = (Jet::default(), Jet::default());
-    let (mut least_q, mut least_slope) = (1.0, DVec3::ZERO);
-    let mut nearest = Nearest { piece: 0, share: 0.0, distance2: f64::MAX };
-    // Heights are summed from one of them, so that no digits are lost.
-    let reference = list.first().map_or(0.0, |&first| block.lines[usize::from(first)].bank_m);
-    for &number in list {
-        let line = &block.lines[usize::from(number)];
-        let Some(foot) = foot(line, dir) else { continue };
-        let d2 = foot.distance2 * line.per_influence2;
-        // The plain distance decides which is nearest.
-        if foot.distance2 < nearest.distance2 {
-            nearest = Nearest { piece: number, share: foot.share, distance2: foot.distance2 };
+/// Points whose sums are found at a time.
+pub(super) const PACKET: usize = 32;
+
+/// One number for each point of a packet.
+pub(super) type Lane = [f64; PACKET];
+
+/// Sums over the pieces of one level around each point of a packet.
+#[derive(Debug, Default)]
+pub(super) struct Sums {
+    /// Heights are summed from this one, so that no digits are lost.
+    reference_m: Lane,
+    weights: Lane,
+    weights_gradient: [Lane; 3],
+    banks: Lane,
+    banks_gradient: [Lane; 3],
+    least_q: Lane,
+    least_gradient: [Lane; 3],
+    /// The nearest piece: its number, the share of it before the foot, and the square of the distance.
+    piece: Lane,
+    share: Lane,
+    nearest2: Lane,
+    /// Square of the distance from the newest piece; infinite beyond its influence.
+    pub(super) newest2: Lane,
+}
+
+impl Sums {
+    /// Forgets the sums of some points. `reference_m`: height of the banks of a piece.
+    pub(super) fn restart(&mut self, points: Range<usize>, reference_m: f64) {
+        self.reference_m[points.clone()].fill(reference_m);
+        let gradients = [&mut self.weights_gradient, &mut self.banks_gradient, &mut self.least_gradient];
+        let zero = [&mut self.weights, &mut self.banks, &mut self.piece, &mut self.share];
+        for lane in gradients.into_iter().flatten().chain(zero) {
+            lane[points.clone()].fill(0.0);
         }
-        let by_direction = foot.offset * (2.0 * line.per_influence2);
-        let spread = 1.0 / (d2 + line.flat2 + 1e-30);
-        let q = d2 * d2 * (1.0 + line.flat2) * spread;
-        let q_slope = d2 * (d2 + 2.0 * line.flat2) * (1.0 + line.flat2) * spread * spread;
-        if q < least_q {
-            (least_q, least_slope) = (q, by_direction * q_slope);
-        }
-        let (within, per_q2) = (1.0 - d2, 1.0 / (q * q + TINY));
-        let weight = within * within * per_q2;
-        let weight_slope = -2.0 * per_q2 * (within + weight * q * q_slope);
-        let weight_gradient = by_direction * weight_slope;
-        let bank_m = line.bank_m - reference + foot.bank_m;
-        let climb = weight * foot.bank_slope_m * line.per_length2;
-        weights.value += weight;
-        weights.gradient += weight_gradient;
-        sum.value += weight * bank_m;
-        sum.gradient += weight_gradient * bank_m + line.along * climb;
-        if let Some((cut, level, is_last)) = &mut cut
-            && line.channel2 > 0.0
-        {
-            let is_cut = line.is_cut(*is_last);
-            cut.join(*level, is_cut, (number, line, &block.stream(number).channel), &foot);
+        self.least_q[points.clone()].fill(1.0);
+        self.nearest2[points].fill(f64::MAX);
+    }
+
+    /// Takes in a piece, by its number, at some points. `SLOPES`: with gradients.
+    // One loop over a dozen lanes.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    pub(super) fn take_in<const SLOPES: bool>(
+        &mut self,
+        points: Range<usize>,
+        dirs: &[Lane; 3],
+        line: &Line,
+        number: u16,
+    ) {
+        let ([start_x, start_y, start_z], [along_x, along_y, along_z]) = (line.start.to_array(), line.along.to_array());
+        let number = f64::from(number);
+        for i in points.start..points.end.min(PACKET) {
+            let (x, y, z) = (dirs[0][i], dirs[1][i], dirs[2][i]);
+            let (vx, vy, vz) = (x - start_x, y - start_y, z - start_z);
+            let along = (vx * along_x + vy * along_y + vz * along_z) * line.per_length2;
+            let share = along.clamp(0.0, 1.0);
+            let (sx, sy, sz) = (vx - along_x * share, vy - along_y * share, vz - along_z * share);
+            let down = sx * x + sy * y + sz * z;
+            let offset = [sx - x * down, sy - y * down, sz - z * down];
+            let distance2 = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
+            let d2 = distance2 * line.per_influence2;
+            let is_near = d2 < 1.0;
+            self.newest2[i] = if is_near { distance2 } else { f64::INFINITY };
+            // The plain distance decides which is nearest.
+            let is_nearest = is_near && distance2 < self.nearest2[i];
+            self.piece[i] = if is_nearest { number } else { self.piece[i] };
+            self.share[i] = if is_nearest { share } else { self.share[i] };
+            self.nearest2[i] = if is_nearest { distance2 } else { self.nearest2[i] };
+            // Uphill of the start the line of the banks bends, so that it stays below its greatest rise.
+            let line_m = line.bank_change_m * along.min(line.last_share);
+            let bent = if line_m > 0.0 { line.rise_m / (line.rise_m + line_m) } else { 1.0 };
+            let bank_m = line.bank_m - self.reference_m[i] + line_m * bent;
+            let spread = 1.0 / (d2 + line.flat2 + 1e-30);
+            let q = d2 * d2 * (1.0 + line.flat2) * spread;
+            let is_least = is_near && q < self.least_q[i];
+            self.least_q[i] = if is_least { q } else { self.least_q[i] };
+            let (within, per_q2) = (1.0 - d2, 1.0 / (q * q + TINY));
+            let weight = within * within * per_q2;
+            self.weights[i] = if is_near { self.weights[i] + weight } else { self.weights[i] };
+            self.banks[i] = if is_near { self.banks[i] + weight * bank_m } else { self.banks[i] };
+            if SLOPES {
+                let q_slope = d2 * (d2 + 2.0 * line.flat2) * (1.0 + line.flat2) * spread * spread;
+                let bank_slope_m = if along <= line.last_share { line.bank_change_m * bent * bent } else { 0.0 };
+                let weight_slope = -2.0 * per_q2 * (within + weight * q * q_slope);
+                let climb = weight * bank_slope_m * line.per_length2;
+                for (axis, along) in [along_x, along_y, along_z].into_iter().enumerate() {
+                    let by_direction = offset[axis] * (2.0 * line.per_influence2);
+                    let least = &mut self.least_gradient[axis][i];
+                    *least = if is_least { by_direction * q_slope } else { *least };
+                    let slope = by_direction * weight_slope;
+                    let (weights, banks) = (&mut self.weights_gradient[axis][i], &mut self.banks_gradient[axis][i]);
+                    *weights = if is_near { *weights + slope } else { *weights };
+                    *banks = if is_near { *banks + (slope * bank_m + along * climb) } else { *banks };
+                }
+            }
         }
     }
-    let banks = if weights.value > 0.0 {
-        let per = 1.0 / weights.value;
-        let mean = sum.value * per;
-        Jet { value: reference + mean, gradient: (sum.gradient - weights.gradient * mean) * per }
-    } else {
-        Jet::default()
-    };
-    let x = least_q.sqrt();
-    let x = Jet { value: x, gradient: if x > 1e-12 { least_slope * (0.5 / x) } else { DVec3::ZERO } };
-    Level { banks, x, nearest: Some(nearest).filter(|nearest| nearest.distance2 < f64::MAX) }
+
+    /// The level at a point.
+    #[inline(always)]
+    pub(super) fn level(&self, i: usize) -> Level {
+        let at = |lanes: &[Lane; 3]| DVec3::from_array(lanes.each_ref().map(|lane| lane[i]));
+        let banks = if self.weights[i] > 0.0 {
+            let per = 1.0 / self.weights[i];
+            let mean = self.banks[i] * per;
+            let gradient = (at(&self.banks_gradient) - at(&self.weights_gradient) * mean) * per;
+            Jet { value: self.reference_m[i] + mean, gradient }
+        } else {
+            Jet::default()
+        };
+        let x = self.least_q[i].sqrt();
+        let gradient = if x > 1e-12 { at(&self.least_gradient) * (0.5 / x) } else { DVec3::ZERO };
+        let nearest = Nearest { piece: self.piece[i] as u16, share: self.share[i], distance2: self.nearest2[i] };
+        let nearest = Some(nearest).filter(|nearest| nearest.distance2 < f64::MAX);
+        Level { banks, x: Jet { value: x, gradient }, nearest }
+    }
 }
 
 /// How valley sides rise with the distance from their reach: a V that steepens, then rounds off into the ridge.

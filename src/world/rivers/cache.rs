@@ -4,6 +4,8 @@
 //! would need more blocks than memory holds: they have the pieces near their cell alone, a spot of a few kilobytes.
 
 use super::block::Block;
+use super::grid::FacePlace;
+use super::packet::Packet;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -155,6 +157,8 @@ pub(crate) struct Cache {
     pub(super) lately: [Option<(usize, u64)>; LATELY],
     /// Whether the points of the batch may stand alone.
     pub(super) is_spread: bool,
+    /// Memory for the points that are worked on. None while it is in use.
+    pub(super) packet: Option<Box<Packet>>,
 }
 
 impl Cache {
@@ -162,5 +166,12 @@ impl Cache {
         if self.owner != owner {
             *self = Self { owner, ..Self::default() };
         }
+    }
+
+    /// Whether a place lies in the current blocks of the first levels.
+    #[inline(always)]
+    pub(super) fn covers(&self, place: &FacePlace, levels: usize) -> bool {
+        let mut current = self.current[..levels].iter();
+        current.all(|current| current.as_ref().is_some_and(|(_, block)| block.covers(place)))
     }
 }

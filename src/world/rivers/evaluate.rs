@@ -1,11 +1,11 @@
 //! The ground, the water and the river at a point, level by level.
 
-use super::blend::{Jet, Level, Nearest, laid_over, level};
+use super::blend::{Jet, Level, Nearest, laid_over};
 use super::block::{BLOCK, Block, Square, block_of};
 use super::cache::{Cache, LEVELS, Spot};
-use super::channel::Cut;
 use super::grid::{Cell, FacePlace, Grid, RATIO};
 use super::net::{NODES, REACHES};
+use super::packet::Packet;
 use super::reach::FREEBOARD;
 use super::shore::{Lakeside, sunk};
 use super::window::Window;
@@ -74,9 +74,7 @@ impl Rivers {
     /// stand alone, not for a node of a block that is built.
     #[inline(always)]
     pub(super) fn find_blocks(&self, place: &FacePlace, levels: usize, is_asked: bool, cache: &mut Cache) {
-        let is_current =
-            |current: &Option<(u64, Arc<Block>)>| current.as_ref().is_some_and(|(_, block)| block.covers(place));
-        if !cache.current[..levels].iter().all(is_current) {
+        if !cache.covers(place, levels) {
             if is_asked && cache.is_spread {
                 self.find_spot(place, levels, cache);
             } else {
@@ -179,77 +177,73 @@ impl Rivers {
         }
     }
 
-    /// The ground of the first `levels` levels. `cut` takes in their channels, and has how far layers stand from the
-    /// rivers of no level, of the first, of the first two, and so on.
+    /// The ground at a direction alone, without channels and gradients.
+    pub(super) fn ground_at(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> Ground {
+        self.find_blocks(&FacePlace::new(dir), levels, false, cache);
+        let mut packet = cache.packet.take().unwrap_or_default();
+        packet.fill(&[dir], levels, cache);
+        packet.sum_up::<false, false>(levels, cache);
+        packet.find_solved(&self.rasters);
+        let ground = self.ground::<false>(&packet, 0, levels, cache);
+        cache.packet = Some(packet);
+        ground
+    }
+
+    /// The ground of the first `levels` levels at a point of a packet.
     #[inline(always)]
-    pub(super) fn ground(
-        &self,
-        dir: DVec3,
-        levels: usize,
-        cache: &mut Cache,
-        mut cut: Option<(&mut Cut, &mut [Jet; LEVELS + 1])>,
-    ) -> Ground {
-        let face_place = FacePlace::new(dir);
-        self.find_blocks(&face_place, levels, cut.is_some(), cache);
+    fn ground<const SLOPES: bool>(&self, packet: &Packet, number: usize, levels: usize, cache: &Cache) -> Ground {
+        let (dir, face_place) = packet.points[number];
         let tangential = |(value, gradient): (f64, DVec3)| Jet { value, gradient: gradient - dir * gradient.dot(dir) };
-        let [heights, reliefs] = &self.rasters;
-        let place = heights.place(dir);
-        let mut ground = tangential(heights.sample(&place, 0));
-        let relief = tangential(reliefs.sample(&place, 0)).scaled(RELIEF);
-        let mut share = Jet { value: 1.0, gradient: DVec3::ZERO };
-        let trunk = self.trunks.grid.index(self.trunks.grid.cell_at(&face_place)) as usize;
-        let mut found = Ground {
-            ground,
-            mean: ground,
-            gradients: [DVec3::ZERO; LEVELS + 1],
-            ridge: 0.0,
-            nearest: None,
-            trunk,
-            lake: self.trunks.lake_near(trunk),
-            lakeside: self.lakeside(dir, trunk),
-            dry_bank_m: None,
-            next_relief_m: 0.0,
+        let of_rasters = if SLOPES {
+            let place = self.rasters[0].place(dir);
+            self.rasters.each_ref().map(|raster| tangential(raster.sample(&place, 0)))
+        } else {
+            packet.solved.each_ref().map(|solved| Jet { value: solved[number], gradient: DVec3::ZERO })
         };
-        let solved = ground;
-        let amplitudes = self.amplitudes(relief);
-        let rises = mean_rises(&amplitudes);
-        let lakeside = found.lakeside;
+        let (solved, relief) = (of_rasters[0], of_rasters[1].scaled(RELIEF));
+        let trunk = self.trunks.grid.index(self.trunks.grid.cell_at(&face_place)) as usize;
+        let (mut lake, lakeside, mut dry_bank_m) = (self.trunks.lake_near(trunk), self.lakeside(dir, trunk), None);
+        // What nobody reads, the compiler leaves out; it cannot where an array is read at numbers that it does not know.
+        let flat = |jet: Jet| if SLOPES { jet } else { Jet { gradient: DVec3::ZERO, ..jet } };
+        let amplitudes = self.amplitudes(relief).map(flat);
+        let rises = mean_rises(&amplitudes).map(flat);
         let drowned = |ground: Jet| {
             // Off the coast the solved sea floor holds, as the solved bed does in a lake.
             let depth_m = self.trunks.sea_level_m.map(|sea_m| solved.scaled(-1.0).plus_number(sea_m));
             let ground = depth_m.map_or(ground, |depth_m| sunk(ground, solved, depth_m));
             lakeside.map_or(ground, |lakeside| lakeside.drowned(ground, solved))
         };
-        found.mean = drowned(ground.plus(rises[0]));
-        found.gradients[0] = found.mean.gradient;
-        let (mut scale, mut ridges) = (1.0, 0.0);
+        let (mut ground, mut share) = (solved, Jet { value: 1.0, gradient: DVec3::ZERO });
+        let mut mean = drowned(ground.plus(rises[0]));
+        let mut gradients = [DVec3::ZERO; LEVELS + 1];
+        if SLOPES {
+            gradients[0] = mean.gradient;
+        }
+        let (mut scale, mut ridge, mut ridges, mut nearest) = (1.0, 0.0, 0.0, None);
         for k in 0..levels {
             let Some((_, block)) = &cache.current[k] else { continue };
-            let channels = cut.as_mut().map(|(cut, _)| (&mut **cut, k, k + 1 == levels));
-            let here: Level = level(dir, block, block.near(&face_place), channels);
-            if let Some((cut, beside)) = &mut cut {
-                beside[k + 1] = cut.beside;
-            }
+            let here = packet.sums[k].level(number);
             let x = here.x;
             let laid = laid_over(ground, amplitudes[k].times(share), &here);
             ground = drowned(laid);
             share = share.times(x.mapped(LEAST_SHARE + (1.0 - LEAST_SHARE) * x.value, 1.0 - LEAST_SHARE));
             let rise = rises[k + 1].times(share).times(beside(x));
-            found.mean = drowned(laid.plus(rise));
-            // Sums of tangential parts keep a little of the radial one.
-            found.gradients[k + 1] = found.mean.gradient - dir * found.mean.gradient.dot(dir);
-            ridges += scale;
-            found.ridge += scale * x.value;
-            scale *= RELIEF_RATIO;
-            if k == 0 && found.lake != 0 {
-                (found.lake, found.dry_bank_m) = self.lake_at(found.lake, &here, block);
+            mean = drowned(laid.plus(rise));
+            if SLOPES {
+                // Sums of tangential parts keep a little of the radial one.
+                gradients[k + 1] = mean.gradient - dir * mean.gradient.dot(dir);
             }
-            found.nearest = here.nearest;
+            ridges += scale;
+            ridge += scale * x.value;
+            scale *= RELIEF_RATIO;
+            if k == 0 && lake != 0 {
+                (lake, dry_bank_m) = self.lake_at(lake, &here, block);
+            }
+            nearest = here.nearest;
         }
-        found.ridge = if ridges > 0.0 { found.ridge / ridges } else { 0.0 };
-        found.next_relief_m = amplitudes.get(levels).map_or(0.0, |amplitude| amplitude.value * share.value);
-        found.ground = ground;
-        found
+        let ridge = if ridges > 0.0 { ridge / ridges } else { 0.0 };
+        let next_relief_m = amplitudes.get(levels).map_or(0.0, |amplitude| amplitude.value * share.value);
+        Ground { ground, mean, gradients, ridge, nearest, trunk, lake, lakeside, dry_bank_m, next_relief_m }
     }
 
     /// The relief of each level, where no level before it takes a share.
@@ -289,30 +283,48 @@ impl Rivers {
         2 * far >= dirs.len() - 1
     }
 
-    /// Evaluates points near each other, in order: one answer for each direction.
-    pub(crate) fn evaluate(&self, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>) {
+    /// Evaluates points near each other, in order: one answer for each direction. Without `slopes` gradients are 0, which
+    /// takes less time.
+    pub(crate) fn evaluate(
+        &self,
+        dirs: &[DVec3],
+        slopes: bool,
+        levels: usize,
+        cache: &mut Cache,
+        out: &mut Vec<RiverPoint>,
+    ) {
+        for_each_simd!(fn with_slopes(
+            rivers: &Rivers, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>
+        ) = points::<true>);
+        for_each_simd!(fn without_slopes(
+            rivers: &Rivers, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>
+        ) = points::<false>);
         cache.belongs_to(self.number);
         cache.is_spread = self.is_spread(dirs, levels);
         out.clear();
         out.reserve(dirs.len());
-        points_simd(Simd::detect(), self, dirs, levels, cache, out);
+        let evaluate = if slopes { with_slopes } else { without_slopes };
+        evaluate(Simd::detect(), self, dirs, levels, cache, out);
     }
 
+    /// The answer at a point of a packet.
     #[inline(always)]
-    fn point(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> RiverPoint {
-        let mut cut = Cut::default();
-        let mut beside = [cut.beside; LEVELS + 1];
-        let at = self.ground(dir, levels, cache, Some((&mut cut, &mut beside)));
+    fn point<const SLOPES: bool>(&self, packet: &Packet, number: usize, levels: usize, cache: &Cache) -> RiverPoint {
+        let (dir, cut, beside) = (packet.points[number].0, &packet.cuts[number], packet.besides[number]);
+        let at = self.ground::<SLOPES>(packet, number, levels, cache);
         let bed = cut.bed(at.mean);
-        let mut gradients = at.gradients;
-        if let Some(gradient) = gradients.get_mut(levels) {
-            *gradient = bed.gradient - dir * bed.gradient.dot(dir);
+        let mut gradients = [DVec3::ZERO; LEVELS + 1];
+        if SLOPES {
+            gradients = at.gradients;
+            if let Some(gradient) = gradients.get_mut(levels) {
+                *gradient = bed.gradient - dir * bed.gradient.dot(dir);
+            }
         }
         // In lakes layers are lower, too.
         let off_lakes = at.lakeside.map(|lakeside| lakeside.beside());
         let layers = beside.map(|beside| {
             let Jet { value, gradient } = off_lakes.map_or(beside, |off| beside.times(off));
-            Jet { value, gradient: gradient - dir * gradient.dot(dir) }
+            Jet { value, gradient: if SLOPES { gradient - dir * gradient.dot(dir) } else { DVec3::ZERO } }
         });
         let lake_level_m = at.lakeside.and_then(|lakeside| self.shore_m(&lakeside, at.dry_bank_m));
         let mut point = RiverPoint {
@@ -349,15 +361,29 @@ impl Rivers {
 }
 
 #[inline(always)]
-fn points(rivers: &Rivers, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>) {
-    for &dir in dirs {
-        out.push(rivers.point(dir, levels, cache));
+fn points<const SLOPES: bool>(
+    rivers: &Rivers,
+    dirs: &[DVec3],
+    levels: usize,
+    cache: &mut Cache,
+    out: &mut Vec<RiverPoint>,
+) {
+    let mut rest = dirs;
+    while let [first, ..] = rest {
+        rivers.find_blocks(&FacePlace::new(*first), levels, true, cache);
+        let mut packet = cache.packet.take().unwrap_or_default();
+        let count = packet.fill(rest, levels, cache);
+        packet.sum_up::<SLOPES, true>(levels, cache);
+        if !SLOPES {
+            packet.find_solved(&rivers.rasters);
+        }
+        for number in 0..count {
+            out.push(rivers.point::<SLOPES>(&packet, number, levels, cache));
+        }
+        cache.packet = Some(packet);
+        rest = &rest[count..];
     }
 }
-
-for_each_simd!(fn points_simd(
-    rivers: &Rivers, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>
-) = points);
 
 /// The mean rise of the ground by the levels from each one on; the last is that of none.
 #[inline(always)]

@@ -100,7 +100,7 @@ fn follow(at: u32) -> Option<usize> {
 impl Rivers {
     fn child_node(&self, grid: &Grid, cell: Cell, ring: u8, coarser: &mut Coarser, cache: &mut Cache) -> Node {
         let (index, dir) = (grid.index(cell), grid.node(cell));
-        let at = self.ground(dir, grid.level, cache, None);
+        let at = self.ground_at(dir, grid.level, cache);
         let mut node = Node {
             ring,
             is_free: false,

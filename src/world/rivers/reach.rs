@@ -153,6 +153,17 @@ impl Channel {
         widest * widest
     }
 
+    /// Square of the distance from which layers over the structure are whole.
+    pub(super) fn farthest2(&self) -> f64 {
+        if self.hold.max(self.hold + self.hold_change) <= 0.0 {
+            return 0.0;
+        }
+        let [start, end] = [0.0, 1.0].map(|share| {
+            self.bank_rad + self.bank_change_rad * share + self.riverside_rad + self.riverside_change_rad * share
+        });
+        start.max(end) * start.max(end)
+    }
+
     /// Half the width of the water, radians.
     pub(super) fn half_width_rad(&self, share: f64) -> f64 {
         (self.bank_rad + self.bank_change_rad * share) * (1.0 / BANK)

@@ -31,7 +31,7 @@ fn spacing_rad(levels: usize) -> f64 {
 
 fn at(dir: DVec3, levels: usize, cache: &mut Cache) -> RiverPoint {
     let mut out = Vec::new();
-    rivers().evaluate(&[dir], levels, cache, &mut out);
+    rivers().evaluate(&[dir], true, levels, cache, &mut out);
     out[0]
 }
 
@@ -43,7 +43,7 @@ fn land(count: usize) -> Vec<DVec3> {
 
 /// The whole block of a level at a direction: that of points close together.
 fn block(dir: DVec3, level: usize, cache: &mut Cache) -> Arc<Block> {
-    rivers().evaluate(&[dir; 2], level + 1, cache, &mut Vec::new());
+    rivers().evaluate(&[dir; 2], true, level + 1, cache, &mut Vec::new());
     cache.current[level].as_ref().map(|(_, block)| block.clone()).unwrap()
 }
 
@@ -147,13 +147,34 @@ fn gradients_match_differences() {
 fn a_batch_equals_its_points_in_any_order() {
     let dirs: Vec<DVec3> = land(60).into_iter().flat_map(|dir| [dir, step(dir, DVec3::Z, 1e-5)]).collect();
     let (mut together, mut backwards) = (Vec::new(), Vec::new());
-    rivers().evaluate(&dirs, LEVELS, &mut Cache::default(), &mut together);
+    rivers().evaluate(&dirs, true, LEVELS, &mut Cache::default(), &mut together);
     let reversed: Vec<DVec3> = dirs.iter().rev().copied().collect();
-    rivers().evaluate(&reversed, LEVELS, &mut Cache::default(), &mut backwards);
+    rivers().evaluate(&reversed, true, LEVELS, &mut Cache::default(), &mut backwards);
     backwards.reverse();
     assert_eq!(together, backwards);
     for (dir, point) in dirs.iter().zip(&together).step_by(9) {
         assert_eq!(at(*dir, LEVELS, &mut Cache::default()), *point);
+    }
+}
+
+#[test]
+fn points_close_together_have_the_bits_that_each_has_alone_with_slopes_and_without() {
+    let near = |dir: DVec3| (0..70).map(move |k| step(dir, DVec3::new(0.3, -0.8, 0.5), f64::from(k) * 3e-6));
+    let without_slopes = |point: RiverPoint| {
+        let flat = |jet: Jet| Jet { gradient: DVec3::ZERO, ..jet };
+        RiverPoint { gradients: [DVec3::ZERO; LEVELS + 1], layers: point.layers.map(flat), ..point }
+    };
+    let (mut together, mut flat, mut cache) = (Vec::new(), Vec::new(), Cache::default());
+    for dir in land(40).into_iter().chain(spread(20)) {
+        let dirs: Vec<DVec3> = near(dir).collect();
+        for levels in 0..=LEVELS {
+            rivers().evaluate(&dirs, true, levels, &mut cache, &mut together);
+            rivers().evaluate(&dirs, false, levels, &mut cache, &mut flat);
+            for (k, dir) in dirs.iter().enumerate().step_by(7) {
+                assert_eq!(together[k], at(*dir, levels, &mut cache), "{levels} levels at {dir}");
+                assert_eq!(flat[k], without_slopes(together[k]), "{levels} levels at {dir}");
+            }
+        }
     }
 }
 
@@ -164,10 +185,10 @@ fn a_point_that_stands_alone_has_the_bits_of_its_block() {
     for (k, dir) in land(300).into_iter().chain(spread(300)).enumerate() {
         let levels = 1 + k % LEVELS;
         let mut cache = Cache::default();
-        alone.evaluate(&[dir], levels, &mut cache, &mut answers[0]);
+        alone.evaluate(&[dir], true, levels, &mut cache, &mut answers[0]);
         // Numbers of blocks are far smaller than those of spots.
         from_spots += usize::from(cache.current[0].as_ref().is_some_and(|(number, _)| number >> 63 == 1));
-        rivers().evaluate(&[dir; 2], levels, &mut Cache::default(), &mut answers[1]);
+        rivers().evaluate(&[dir; 2], true, levels, &mut Cache::default(), &mut answers[1]);
         let expected = answers[1][0];
         assert_eq!(answers[0][0], expected, "{levels} levels at {dir}");
     }

@@ -16,7 +16,7 @@ use super::map::KeepGoing;
 use super::once::made;
 use crate::planet::Weather as Params;
 use crate::sphere::geo::east_north;
-use crate::sphere::raster::Raster;
+use crate::sphere::raster::{NearPoints, Raster};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -153,6 +153,12 @@ impl Weather {
     pub(crate) fn at(&self, dir: DVec3) -> [f64; 2] {
         let place = self.rasters[0].place(dir);
         self.rasters.each_ref().map(|raster| raster.value(&place, 0))
+    }
+
+    /// Finds the answers of [`Weather::at`] at points near each other: one number for each, of either kind.
+    pub(crate) fn find(&self, points: &NearPoints, warmer_c: &mut Vec<f64>, humidity: &mut Vec<f64>) {
+        self.rasters[0].values(points, warmer_c);
+        self.rasters[1].values(points, humidity);
     }
 
     /// Rain and snow in mm a year at a unit direction.
