@@ -64,7 +64,7 @@ fn carved(world: &World) -> &Carved {
 fn bits(carved: &Carved) -> Vec<u64> {
     let dirs: Vec<_> = Cells::of(12).dirs.iter().copied().step_by(61).collect();
     let mut points = Vec::new();
-    carved.rivers.evaluate(&dirs, LEVELS, &mut Cache::default(), &mut points);
+    carved.rivers.evaluate(&dirs, true, LEVELS, &mut Cache::default(), &mut points);
     assert!(points.iter().all(|point| point.height_m.is_finite()));
     points.iter().map(|point| point.height_m.to_bits()).collect()
 }
