@@ -159,8 +159,11 @@ mod tests {
                     corners.map(|(u, v)| angle(middle, node.direction(u, v))).into_iter().fold(0.0, f64::max);
                 angle(middle, dir) <= radius_m / 3000.0 + half_rad
             };
-            let all = NodeId::roots().into_iter().flat_map(|root| root.descendants(grid.level));
-            let mut right: Vec<NodeId> = all.filter(touches).collect();
+            let mut right = Vec::from(NodeId::roots());
+            for _ in 0..grid.level {
+                right = right.iter().filter(|node| touches(node)).flat_map(|node| node.children()).collect();
+            }
+            right.retain(touches);
             right.sort_unstable();
             assert_eq!(grid.cells_within(dir, radius_m), right, "{radius_m}");
         }

@@ -96,9 +96,9 @@ impl Placement {
         (node.level == self.soil_level).then_some(node)
     }
 
-    /// Adds the objects of cells that share their soil: those of each cell in the order of its candidates, and last those
-    /// that are placed by hand. `soil`: that of [`Placement::soil_node`]. Cells that are placed together take less time
-    /// than one by one.
+    /// Adds the objects of cells that share their soil: those of each cell in the order of its candidates, and last
+    /// those that are placed by hand. `soil`: that of [`Placement::soil_node`]. Cells that are placed together take
+    /// less time than one by one.
     pub(super) fn place(
         &self,
         terrain: &Terrain,

@@ -203,7 +203,7 @@ impl Rivers {
         let (solved, relief) = (of_rasters[0], of_rasters[1].scaled(RELIEF));
         let trunk = self.trunks.grid.index(self.trunks.grid.cell_at(&face_place)) as usize;
         let (mut lake, lakeside, mut dry_bank_m) = (self.trunks.lake_near(trunk), self.lakeside(dir, trunk), None);
-        // What nobody reads, the compiler leaves out; it cannot where an array is read at numbers that it does not know.
+        // What nobody reads, the compiler leaves out; it cannot where an array is read at unknown numbers.
         let flat = |jet: Jet| if SLOPES { jet } else { Jet { gradient: DVec3::ZERO, ..jet } };
         let amplitudes = self.amplitudes(relief).map(flat);
         let rises = mean_rises(&amplitudes).map(flat);
@@ -283,8 +283,8 @@ impl Rivers {
         2 * far >= dirs.len() - 1
     }
 
-    /// Evaluates points near each other, in order: one answer for each direction. Without `slopes` gradients are 0, which
-    /// takes less time.
+    /// Evaluates points near each other, in order: one answer for each direction. Without `slopes` gradients are 0,
+    /// which takes less time.
     pub(crate) fn evaluate(
         &self,
         dirs: &[DVec3],

@@ -8,7 +8,8 @@
 //! - `reach`: the curve, bed and channel of a reach, cut into straight pieces; `winding`: their bends on finer levels
 //! - `block`: pieces near a square of cells, listed by bucket; `cache`: blocks that were built, and the
 //!   spots of points that stand alone
-//! - `blend`: the ground of one level at points, laid over the level before; `packet`: points that are worked on together
+//! - `blend`: the ground of one level at points, laid over the level before
+//! - `packet`: points that are worked on together
 //! - `channel`: the beds of rivers at a point, and how far layers over the structure stand from them
 //! - `courses`: rivers from source to mouth
 //! - `evaluate`: ground, water and river at points; `bounds`: bounds of the ground near a direction

@@ -61,8 +61,8 @@ impl Packet {
         }
     }
 
-    /// Sums up the pieces of the first levels around each point. `SLOPES`: with gradients. `CHANNELS`: with the channels
-    /// of rivers.
+    /// Sums up the pieces of the first levels around each point. `SLOPES`: with gradients. `CHANNELS`: with the
+    /// channels of rivers.
     #[inline(always)]
     pub(super) fn sum_up<const SLOPES: bool, const CHANNELS: bool>(&mut self, levels: usize, cache: &Cache) {
         let count = self.points.len();
