@@ -156,9 +156,10 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
             if crowns.clear < 1.0 { relief = mix(vec2f(crown_grain(kind.x, place)), relief, crowns.clear); }
             hue = mix(0.5, crowns.random, crowns.clear);
         }
-        // Flat rays meet the sides of objects, steep ones their tops.
+        // Flat rays meet the sides of objects, steep ones their tops, which hide what is below.
         let of_sides = areas.y * (*canopy).eye_tangent;
-        var albedo = mix(color.rgb, biome_param(id, row + 9).rgb, of_sides / max(areas.x + of_sides, 1e-6));
+        let from_side = smoothstep(0.5, 1.0, of_sides / max(areas.x + of_sides, 1e-6));
+        var albedo = mix(color.rgb, biome_param(id, row + 9).rgb, from_side);
         // As in life.wgsl.
         if material >= LEAFY { albedo = hue_of_one(albedo, hue + STAND_HUES * stand) * (1.0 + STANDS * stand); }
         (*canopy).layers[end] = CanopyLayer(

