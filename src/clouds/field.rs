@@ -6,7 +6,7 @@ use super::swirl::{Noises, Swirls};
 use super::systems::{Climate, Effect, System, alive};
 use crate::planet::{Clouds, Rotation};
 use crate::sphere::spread;
-use crate::terrain::edits::{Edits, Near};
+use crate::terrain::edits::{Edits, Near, Subject};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
 use crate::terrain::{Revision, Terrain};
@@ -194,7 +194,7 @@ impl CloudField {
 
     /// The painted clouds of a planet in the place of those before. They change nothing beyond the strokes.
     pub(crate) fn set_paint(&mut self, revision: &Revision) {
-        self.paint = revision.edits().filter(|edits| edits.cloud_key().is_some()).cloned();
+        self.paint = revision.edits().filter(|edits| edits.key(Subject::Clouds).is_some()).cloned();
     }
 
     /// By how much paint changes the log-odds of the target cover at directions: calls `each` with the number of a

@@ -9,7 +9,7 @@ use super::suitability::Suitability;
 use crate::planet::Key;
 use crate::sphere::{NodeId, geo};
 use crate::terrain::Terrain;
-use crate::terrain::edits::{Edits, Planting, PopulationId};
+use crate::terrain::edits::{Edits, Planting, PopulationId, Subject};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -129,7 +129,7 @@ impl PlantingMaps {
             let rules: Vec<_> = asks.iter().map(|one| one.population.placed()).collect();
             Key::of(&(&asking, rules, NodeId::roots().map(|root| terrain.tile_keys_at(root))))
         });
-        let edits_key = edits.map(|edits| edits.life_key());
+        let edits_key = edits.map(|edits| edits.key(Subject::Life));
         let key = Key::of(&(edits_key, lie, names, radius_m.to_bits(), texel_m.to_bits(), node));
         if let Some(at) = self.maps.iter().position(|map| map.key == key) {
             // Maps of views that stand still are kept as well.

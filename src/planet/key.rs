@@ -39,6 +39,11 @@ impl Key {
         self.0
     }
 
+    /// The two halves of the hash, the upper first.
+    pub(crate) fn words(self) -> [u64; 2] {
+        [(self.0 >> 64) as u64, self.0 as u64]
+    }
+
     /// The key of a number that was written down.
     #[cfg(any(feature = "bake", feature = "render"))]
     pub(crate) fn from_bits(bits: u128) -> Self {

@@ -7,7 +7,7 @@
 
 use super::Terrain;
 use super::climate::{ClimateInputs, MapClimate};
-use super::edits::{self, Begun, Edits, Painted, Span};
+use super::edits::{self, Edits, Painted, Span, Surrounded};
 use super::field::Field;
 use super::height::{self, Batch, Heights, LayerFields};
 use super::landform;
@@ -15,7 +15,7 @@ use super::lane::CHUNK;
 use super::points::Points;
 use super::relief::{self, ReliefFields, Shares};
 use glam::DVec3;
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::sync::Arc;
 
 /// Where the noise of one batch of points comes from.
@@ -57,38 +57,6 @@ pub(crate) struct JoinScratch {
     edits: edits::Near,
 }
 
-/// Edits that ask for the ground before them on one stack, and the size of each further stack.
-const MOST_DEEP: usize = 16;
-const STACK_BYTES: usize = 2 << 20;
-
-thread_local! {
-    /// How many of them are on the stack of this thread.
-    static DEPTH: Cell<usize> = const { Cell::new(0) };
-    /// Scratches of those that are done.
-    static SPARE: RefCell<Vec<Box<BatchScratch>>> = const { RefCell::new(Vec::new()) };
-}
-
-/// One of them, for as long as it is on the stack; holds how many were there before it.
-struct Deeper(usize);
-
-impl Deeper {
-    fn new() -> Self {
-        Self(DEPTH.replace(DEPTH.get() + 1))
-    }
-}
-
-impl Drop for Deeper {
-    fn drop(&mut self) {
-        DEPTH.set(self.0);
-    }
-}
-
-/// A scratch on the heap, made in a frame of its own.
-#[inline(never)]
-fn new_scratch() -> Box<BatchScratch> {
-    Box::default()
-}
-
 impl Terrain {
     /// Heights at points, with one gradient for each spacing. `each(layer, heights_m)` is told the heights after each
     /// enabled layer.
@@ -104,7 +72,7 @@ impl Terrain {
         let batch = Batch { stack: &self.stack, simd: self.simd, points, spacings_rad };
         batch.join(inputs, &mut scratch.layers, heights, each);
         if let Some(edits) = &self.edits {
-            self.apply_edits(edits, &points.dirs, spacings_rad, heights, &mut scratch.edits, Span::default());
+            self.apply_edits(edits, &points.dirs, spacings_rad, heights, &mut scratch.edits);
         }
         if let Some(relief) = &self.relief {
             let near = &mut scratch.edits;
@@ -120,7 +88,7 @@ impl Terrain {
         }
     }
 
-    /// Changes heights by a span of edits.
+    /// Changes heights by all edits.
     fn apply_edits(
         &self,
         edits: &Edits,
@@ -128,58 +96,49 @@ impl Terrain {
         spacings_rad: &[f64],
         heights: &mut Heights,
         near: &mut edits::Near,
-        span: Span,
     ) {
-        let ground_before =
-            |slot: u32, dirs: &[DVec3], from: Option<&Begun>| self.ground_before(edits, slot, dirs, from);
-        let ground = edits::Ground { before: &ground_before, memory: &self.memory };
-        edits.apply(dirs, spacings_rad, heights, self.stack.limits_m(), near, (&ground, span));
+        let mut ground = |dirs: &[DVec3], begun_m: Option<&[f64]>, span: Span, surrounded: &Surrounded| {
+            self.ground_after(edits, dirs, begun_m, (surrounded, span))
+        };
+        let surrounded = edits.surroundings(dirs, near, &self.memory, &mut ground);
+        edits.apply(dirs, spacings_rad, heights, self.stack.limits_m(), near, (&surrounded, Span::default()));
     }
 
-    /// Heights at points as the layers and the edits before the one in a slot make them. Edits that read the ground may
-    /// lie over one another by the hundred, and each asks for the ground before it: every few of them get a stack of
-    /// their own.
-    fn ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3], from: Option<&Begun>) -> Vec<f64> {
-        let deeper = Deeper::new();
-        let find = || self.find_ground_before(edits, slot, dirs, from);
-        if deeper.0 < MOST_DEEP {
-            find()
-        } else {
-            let stack = std::thread::Builder::new().name("ground".to_owned()).stack_size(STACK_BYTES);
-            std::thread::scope(|scope| match stack.spawn_scoped(scope, find) {
-                Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
-                Err(_) => find(),
-            })
+    /// Heights at directions after a span of edits. They begin with heights that are known, or with those of the
+    /// layers.
+    fn ground_after(
+        &self,
+        edits: &Edits,
+        dirs: &[DVec3],
+        begun_m: Option<&[f64]>,
+        work: (&Surrounded, Span),
+    ) -> Vec<f64> {
+        thread_local! {
+            static SCRATCH: RefCell<Box<BatchScratch>> = RefCell::default();
         }
-    }
-
-    fn find_ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3], from: Option<&Begun>) -> Vec<f64> {
-        // The scratch of the thread is in use. It is too large for a stack as deep as edits lie over one another.
-        let mut scratch = SPARE.with_borrow_mut(Vec::pop).unwrap_or_else(new_scratch);
-        let mut heights_m = Vec::with_capacity(dirs.len());
-        let span = Span { from: from.map(|from| from.slot), before: Some(slot) };
-        for (number, dirs) in dirs.chunks(CHUNK).enumerate() {
-            let BatchScratch { points, noise, join, heights } = &mut *scratch;
-            if let Some(begun_m) = from.and_then(|from| from.heights_m.get(number * CHUNK..)) {
-                heights.height_m.clear();
-                heights.height_m.extend_from_slice(&begun_m[..dirs.len().min(begun_m.len())]);
-            } else {
-                points.refill(dirs.iter().copied(), 0.0);
-                noise.restart(self);
-                let points = &*points;
-                let mut inputs = Evaluated { terrain: self, points, spacings_rad: &[], noise };
-                let batch = Batch { stack: &self.stack, simd: self.simd, points, spacings_rad: &[] };
-                batch.join(&mut inputs, &mut join.layers, heights, |_, _| {});
+        SCRATCH.with_borrow_mut(|scratch| {
+            let BatchScratch { points, noise, join, heights } = &mut **scratch;
+            let mut heights_m = Vec::with_capacity(dirs.len());
+            for dirs in dirs.chunks(CHUNK) {
+                match begun_m.and_then(|begun_m| begun_m.get(heights_m.len()..heights_m.len() + dirs.len())) {
+                    Some(begun_m) => {
+                        heights.height_m.clear();
+                        heights.height_m.extend_from_slice(begun_m);
+                    }
+                    None => {
+                        points.refill(dirs.iter().copied(), 0.0);
+                        noise.restart(self);
+                        let points = &*points;
+                        let mut inputs = Evaluated { terrain: self, points, spacings_rad: &[], noise };
+                        let batch = Batch { stack: &self.stack, simd: self.simd, points, spacings_rad: &[] };
+                        batch.join(&mut inputs, &mut join.layers, heights, |_, _| {});
+                    }
+                }
+                edits.apply(dirs, &[], heights, self.stack.limits_m(), &mut join.edits, work);
+                heights_m.extend_from_slice(&heights.height_m);
             }
-            self.apply_edits(edits, dirs, &[], heights, &mut join.edits, span);
-            heights_m.extend_from_slice(&heights.height_m);
-        }
-        SPARE.with_borrow_mut(|spare| {
-            if spare.len() < MOST_DEEP {
-                spare.push(scratch);
-            }
-        });
-        heights_m
+            heights_m
+        })
     }
 
     /// As [`Terrain::join`], in memory that the thread keeps.

@@ -7,13 +7,13 @@
 use super::lane::{CHUNK, Lane};
 use super::noise::Noise;
 use super::scalar::Scalar;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A value and its gradient by the coordinates of the point.
+/// A value with its derivatives: of landforms by the coordinates of the point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Jet {
-    pub(crate) v: f32,
-    pub(crate) d: [f32; 3],
+pub(crate) struct Jet<S = f32, const N: usize = 3> {
+    pub(crate) v: S,
+    pub(crate) d: [S; N],
 }
 
 /// Values and gradients at a chunk of points.
@@ -230,37 +230,119 @@ impl Real for Jet {
     }
 }
 
-impl Add for Jet {
+impl<S: Scalar, const N: usize> Add for Jet<S, N> {
     type Output = Self;
     #[inline(always)]
-    fn add(self, o: Self) -> Self {
-        Jet { v: self.v + o.v, d: [self.d[0] + o.d[0], self.d[1] + o.d[1], self.d[2] + o.d[2]] }
+    fn add(mut self, o: Self) -> Self {
+        self.v = self.v + o.v;
+        for (d, o) in self.d.iter_mut().zip(&o.d) {
+            *d = *d + *o;
+        }
+        self
     }
 }
 
-impl Sub for Jet {
+impl<S: Scalar, const N: usize> Sub for Jet<S, N> {
     type Output = Self;
     #[inline(always)]
-    fn sub(self, o: Self) -> Self {
-        Jet { v: self.v - o.v, d: [self.d[0] - o.d[0], self.d[1] - o.d[1], self.d[2] - o.d[2]] }
+    fn sub(mut self, o: Self) -> Self {
+        self.v = self.v - o.v;
+        for (d, o) in self.d.iter_mut().zip(&o.d) {
+            *d = *d - *o;
+        }
+        self
     }
 }
 
-impl Mul for Jet {
+impl<S: Scalar, const N: usize> Mul for Jet<S, N> {
     type Output = Self;
-    // The product rule is a sum.
-    #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
-    fn mul(self, o: Self) -> Self {
-        let d = |i: usize| self.d[i] * o.v + o.d[i] * self.v;
-        Jet { v: self.v * o.v, d: [d(0), d(1), d(2)] }
+    fn mul(mut self, o: Self) -> Self {
+        for (d, by_o) in self.d.iter_mut().zip(&o.d) {
+            *d = *d * o.v + *by_o * self.v;
+        }
+        self.v = self.v * o.v;
+        self
     }
 }
 
-impl Neg for Jet {
+impl<S: Scalar, const N: usize> Neg for Jet<S, N> {
     type Output = Self;
     #[inline(always)]
-    fn neg(self) -> Self {
-        Jet { v: -self.v, d: [-self.d[0], -self.d[1], -self.d[2]] }
+    fn neg(mut self) -> Self {
+        self.v = -self.v;
+        for d in &mut self.d {
+            *d = -*d;
+        }
+        self
+    }
+}
+
+impl<const N: usize> Div for Jet<f64, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(mut self, o: Self) -> Self {
+        self.v /= o.v;
+        for (d, by_o) in self.d.iter_mut().zip(&o.d) {
+            *d = (*d - *by_o * self.v) / o.v;
+        }
+        self
+    }
+}
+
+/// Formulas in f64 whose derivatives are by variables of their own.
+impl<const N: usize> Jet<f64, N> {
+    /// A number whose derivatives are 0.
+    #[inline(always)]
+    pub(crate) fn constant(v: f64) -> Self {
+        Self { v, d: [0.0; N] }
+    }
+
+    /// The variable of a number, 0 to N - 1.
+    #[inline(always)]
+    pub(crate) fn variable(v: f64, number: usize) -> Self {
+        let mut jet = Self::constant(v);
+        jet.d[number] = 1.0;
+        jet
+    }
+
+    /// A function of this number, from its value and its derivative here.
+    #[inline(always)]
+    pub(crate) fn chain(mut self, v: f64, k: f64) -> Self {
+        self.v = v;
+        for d in &mut self.d {
+            *d *= k;
+        }
+        self
+    }
+
+    /// Sum with a parameter.
+    #[inline(always)]
+    pub(crate) fn plus(self, k: f64) -> Self {
+        Self { v: self.v + k, ..self }
+    }
+
+    /// Product with a parameter.
+    #[inline(always)]
+    pub(crate) fn times(self, k: f64) -> Self {
+        self.chain(self.v * k, k)
+    }
+
+    /// Quotient by a parameter.
+    #[inline(always)]
+    pub(crate) fn over(self, k: f64) -> Self {
+        self.chain(self.v / k, 1.0 / k)
+    }
+
+    /// The greater of it and a parameter.
+    #[inline(always)]
+    pub(crate) fn at_least(self, low: f64) -> Self {
+        if self.v > low { self } else { Self::constant(low) }
+    }
+
+    /// 1 less the number.
+    #[inline(always)]
+    pub(crate) fn rest(self) -> Self {
+        self.chain(1.0 - self.v, -1.0)
     }
 }

@@ -86,7 +86,7 @@ use biome::CompiledBiomes;
 use climate::{CompiledClimate, Rules};
 use coarse::{CellFields, LayerGround};
 pub use curvature::CURVATURE_M;
-use edits::{Edits, Memory, Near, Painted};
+use edits::{Edits, Memory, Near, Painted, Subject};
 use glam::DVec3;
 use height::LayerStack;
 use landform::{Landform, Maps};
@@ -332,7 +332,8 @@ impl Terrain {
     pub(crate) fn with_edits_near(&self, keys: TileKeys, id: NodeId) -> TileKeys {
         match &self.edits {
             Some(edits) => {
-                let near = [edits.key_near(id), edits.mask_key_near(id), edits.paint_key_near(id)];
+                let near =
+                    [Subject::Ground, Subject::Masks, Subject::Climate].map(|subject| edits.key_near(subject, id));
                 self.revision.compiled.content.with_edits(keys, near)
             }
             None => keys,

@@ -6,7 +6,7 @@
 //! no key. Textures of the renderer have keys of the parameters that declare their stage.
 
 use super::climate::{CompiledClimate, MapKeys, SeaLevelClimate, final_map_keys};
-use super::edits::Edits;
+use super::edits::{Edits, Subject};
 use super::height::LayerStack;
 use super::landform::Reads;
 use super::relief::Relief;
@@ -235,7 +235,10 @@ impl Compiled {
             sea_level_m: planet.sea_level_m(),
             reads_coast: CompiledClimate::reads_coast(planet),
             structure: structure_inputs(planet),
-            sculpted: edits.as_ref().filter(|_| planet.structure.is_some()).and_then(|edits| edits.structure_key()),
+            sculpted: edits
+                .as_ref()
+                .filter(|_| planet.structure.is_some())
+                .and_then(|edits| edits.key(Subject::Structure)),
             grids: planet.structure.as_ref().map_or(0, |structure| structure.grids as usize),
         };
         let (carved, plates) = (Slot::<Carved>::final_key(&map_inputs), Slot::<Plates>::final_key(&map_inputs));
@@ -253,7 +256,9 @@ impl Compiled {
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
         let tiles = content.keys(final_map_keys(&map_inputs), plates);
-        let all = edits.as_ref().map(|edits| [edits.key(), edits.mask_key(), edits.paint_key()]);
+        let all = edits
+            .as_ref()
+            .map(|edits| [Subject::Ground, Subject::Masks, Subject::Climate].map(|subject| edits.key(subject)));
         let tiles = content.with_edits(tiles, all.unwrap_or_default());
         let [materials, cloud_map, optical_depth, air_tables, life] = drawn_keys(planet);
         let keys = Keys {
@@ -263,11 +268,11 @@ impl Compiled {
             climate: tiles.climate,
             materials,
             cloud_map,
-            cloud_paint: edits.as_ref().and_then(|edits| edits.cloud_key()),
+            cloud_paint: edits.as_ref().and_then(|edits| edits.key(Subject::Clouds)),
             optical_depth,
             air_tables,
             life,
-            life_edits: edits.as_ref().filter(|_| !planet.life.is_empty()).and_then(|edits| edits.life_key()),
+            life_edits: edits.as_ref().filter(|_| !planet.life.is_empty()).and_then(|edits| edits.key(Subject::Life)),
         };
         Self { stack, under: under.map(Arc::new), edits, climate, relief, map_inputs, content, keys }
     }

@@ -1,5 +1,5 @@
-//! The tools of ground edits and their parameters. Formulas are in `terrain::edits::tool`: `t` is the distance from
-//! the line or the middle in radii, `w` falls from 1 to 0 over the softness.
+//! The tools of ground edits and their parameters. Formulas are in `terrain::edits::tool`, one file each: `t` is the
+//! distance from the line or the middle in radii, `w` falls from 1 to 0 over the softness.
 
 use crate::planet::biome::UNSET_KEY;
 use crate::planet::kinds::kinds;

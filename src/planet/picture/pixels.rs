@@ -65,11 +65,6 @@ impl Picture {
         }
     }
 
-    /// A hash of its pixels and what they cover.
-    pub(crate) fn hash(&self) -> u64 {
-        self.hash
-    }
-
     /// Conservative bounds of the samples within an angle of a unit direction.
     pub fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         match &self.texels {

@@ -1,7 +1,7 @@
 //! One edit, compiled: its tool, its line, and the pieces of that line.
 
+use super::Subject;
 use super::context::Context;
-use super::gullies::{Carved, Gullies};
 use super::index::{Hash, Piece, chord_of};
 use super::limits::Limits;
 use super::mask::{EditMask, ShareAt};
@@ -9,14 +9,12 @@ use super::nearest::Nearest;
 use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
 use super::path::{self, Arc, Taper, angle_of, away};
-use super::reading::{Read, Reader};
-use super::smooth::Lattice;
-use super::stamp::{Stamp, Stamped};
-use super::structural::StructurePaint;
-use super::tool::{At, CompiledTool, falloff, rise};
+use super::reading::{Reader, Reads, Sample, Slope, Surroundings};
+use super::tool::{At, BY_GROUND, BY_READ, BY_STRENGTH, BY_T, Dual, EditTool, Site, Task, falloff};
 use super::widening::Widening;
+use crate::planet::GroundEdit;
 use crate::planet::edits::EditBlend;
-use crate::planet::{GroundEdit, Tool};
+use crate::terrain::jet::Jet;
 use glam::DVec3;
 
 /// Arcs of a piece.
@@ -31,11 +29,15 @@ const ROUNDING_M: f64 = 1e-4;
 /// An edit, compiled.
 #[derive(Clone, Debug)]
 pub(super) struct CompiledEdit {
-    tool: CompiledTool,
+    task: Task,
+    /// Quantity that the tool reads besides the ground under a point.
+    reads: Reads,
     arcs: Vec<Arc>,
     pub(super) pieces: Vec<Piece>,
     is_stamp: bool,
     radius_rad: f64,
+    /// Radii to which it reaches.
+    reach: f64,
     /// How many images it has, itself among them: each has as many arcs.
     images: usize,
     /// Chord of the distance to which it reaches.
@@ -47,12 +49,6 @@ pub(super) struct CompiledEdit {
     raggedness: f64,
     /// Noise of a ragged outline.
     outline: Option<Noise>,
-    /// Noise of rough ground.
-    rough: Option<Noise>,
-    /// The picture of a stamp.
-    stamp: Option<Stamp>,
-    /// How the edit reads the ground around a point.
-    pub(super) reader: Option<Reader>,
     blend: EditBlend,
     limits: Limits,
     /// The painted mask that limits it.
@@ -65,23 +61,25 @@ pub(super) struct CompiledEdit {
     pub(super) own: u128,
 }
 
-/// Of a road at a point: sums over near arcs of weight and of weight times height, each with its gradient.
-#[derive(Clone, Copy, Debug, Default)]
-struct Average {
-    weight: (f64, DVec3),
-    weighted_m: (f64, DVec3),
+/// A point by the line of an edit.
+struct Place {
+    taper: Taper,
+    radius_rad: f64,
+    /// Distance in radii, before the outline is ragged.
+    plain: f64,
+    /// Factor on the distance by a ragged outline, and its derivative by the noise.
+    stretch: (f64, f64),
+    ragged: Option<Sampled>,
+    /// 1 on the left side of a line with two sides, -1 on its right, 1 elsewhere.
+    side: f64,
 }
 
-/// How paint fades at a point.
-struct Fade {
-    weight: f64,
-    /// Derivative of the weight by the distance in radii, before the outline is ragged.
-    by_plain: f64,
-    /// The distance in radii.
-    plain: f64,
-    taper: Taper,
-    /// Derivative by the noise of a ragged outline.
-    outline: Option<(f64, Sampled)>,
+impl Place {
+    /// Distance in radii.
+    #[inline(always)]
+    fn t(&self) -> f64 {
+        self.plain * self.stretch.0
+    }
 }
 
 /// What an edit does at a point.
@@ -95,101 +93,66 @@ pub(super) struct Effect<'a> {
     /// Gradient by the distance from the line, without noise; the size of what makes it.
     smooth: DVec3,
     feature_rad: f64,
-    /// Gradient of ground that takes the place of the old one: it has the slopes of far larger features.
-    ground: DVec3,
-    /// Derivatives by the two noises.
+    /// Derivative by the noise of the outline.
     outline: Option<(f64, Sampled)>,
-    rough: Option<(f64, Sampled)>,
-    /// Derivative by the value of a picture, or by the height of gullies.
-    detail: Option<(f64, Detail<'a>)>,
-}
-
-/// What changes within the reach of an edit, and is shaded as finely as points can show.
-#[derive(Clone, Copy, Debug)]
-enum Detail<'a> {
-    Picture(Stamped<'a>),
-    Gullies(Carved),
-}
-
-impl Detail<'_> {
-    fn gradient(&self, spacing_rad: f64) -> DVec3 {
-        match self {
-            Detail::Picture(stamped) => stamped.gradient(spacing_rad),
-            Detail::Gullies(carved) => carved.gradient(spacing_rad),
-        }
-    }
+    /// Derivative by what the tool reads, which changes within the reach of the edit, and its gradient.
+    read: (f64, Slope<'a>),
 }
 
 impl Effect<'_> {
     /// The gradient by the direction that points so far apart can show.
     pub(super) fn gradient(&self, spacing_rad: f64) -> DVec3 {
-        let noisy = |part: &Option<(f64, Sampled)>| {
-            part.as_ref().map_or(DVec3::ZERO, |(by_noise, noise)| noise.gradient(spacing_rad) * *by_noise)
-        };
+        let outline = self.outline.as_ref();
+        let outline = outline.map_or(DVec3::ZERO, |(by_noise, noise)| noise.gradient(spacing_rad) * *by_noise);
         let seen = outline::seen(self.feature_rad, spacing_rad, LEAST_POINTS);
-        let detail = self.detail.as_ref();
-        let detail = detail.map_or(DVec3::ZERO, |(by_value, detail)| detail.gradient(spacing_rad) * *by_value);
-        self.smooth * seen + self.ground + noisy(&self.outline) * seen + noisy(&self.rough) + detail
+        let (by_read, slope) = &self.read;
+        self.smooth * seen + outline * seen + slope.gradient(spacing_rad) * *by_read
     }
 }
 
 impl CompiledEdit {
     /// `scatter`: the mask that decides where copies lie, see [`path::places`].
     pub(super) fn new(edit: &GroundEdit, radius_m: f64, sea_m: Option<f64>, scatter: Option<ShareAt<'_>>) -> Self {
-        let radius_rad = edit.radius_km * 1000.0 / radius_m;
-        let reader = match &edit.tool {
-            Tool::Smooth(smooth) => Some(Reader::Smooth(Lattice::new(smooth.size * radius_rad))),
-            Tool::Thermal(thermal) => Some(Reader::Smooth(Lattice::new(thermal.size * radius_rad))),
-            Tool::Hydraulic(gullies) => Some(Reader::Gullies(Gullies::new(gullies, edit.seed, radius_rad, radius_m))),
-            _ => None,
-        };
-        let depth_m = if let Some(Reader::Gullies(gullies)) = &reader { gullies.depth_m() } else { 0.0 };
-        let tool = CompiledTool::new(edit, sea_m.unwrap_or(0.0), depth_m);
+        let site = Site { edit, radius_m, sea_m: sea_m.unwrap_or(0.0) };
+        let radius_rad = site.radius_rad();
+        let task = Task::new(&site);
         let points = &edit.points.0;
         let mut arcs =
             if edit.tool.is_stamp() { path::places(edit, radius_m, scatter) } else { path::arcs(points, radius_rad) };
-        match tool {
-            // Most in the middle; a closed line slips evenly.
-            CompiledTool::Fault { .. } => path::set_values(&mut arcs, |from, to| match from + to {
-                length if length == f64::INFINITY => 1.0,
-                length => 4.0 * from * to / (length * length).max(1e-30),
-            }),
-            CompiledTool::Coast { .. } => path::set_values(&mut arcs, |from, to| rise(from.min(to) / radius_rad).0),
-            _ => {}
+        let value_of_sides = task.tool().and_then(EditTool::value_of_sides);
+        if let Some(value) = value_of_sides {
+            path::set_values(&mut arcs, |from, to| value([from, to], radius_rad));
         }
-        let has_sides = matches!(tool, CompiledTool::Fault { .. } | CompiledTool::Coast { .. });
-        path::add_images(&mut arcs, edit, has_sides);
-        let rough = match &edit.tool {
-            Tool::Roughen(rough) => Some(Noise::new(edit.seed ^ 0x5C07, rough.wavelength_km * 1000.0 / radius_m)),
-            _ => None,
-        };
-        let stamp = match &edit.tool {
-            Tool::Picture(stamp) => Stamp::new(stamp, &arcs),
-            _ => None,
+        path::add_images(&mut arcs, edit, value_of_sides.is_some());
+        let reads = match task.tool() {
+            Some(_) if value_of_sides.is_some() => Reads::Sides,
+            Some(tool) => tool.reads(&site, &arcs),
+            None => Reads::Nothing,
         };
         let heights = arcs.iter().flat_map(|arc| arc.values);
         let heights_m = heights.fold((f64::MAX, f64::MIN), |(lo, hi), h| (lo.min(h), hi.max(h)));
         let widest = arcs.iter().flat_map(|arc| arc.widths).fold(0.0, f64::max);
+        let reach = task.reach();
+        let range = task.tool().map_or_else(Widening::default, |tool| tool.range(heights_m));
         let mut compiled = Self {
             tapers: arcs.iter().flat_map(|arc| arc.widths).any(|width| width != 1.0),
             pieces: Vec::new(),
             is_stamp: edit.tool.is_stamp(),
             images: edit.image_count(),
             radius_rad,
-            reach_chord: chord_of(radius_rad * tool.reach() * widest),
+            reach,
+            reach_chord: chord_of(radius_rad * reach * widest),
             core: (1.0 - edit.softness).min(0.99),
             raggedness: edit.raggedness,
             outline: (edit.raggedness > 0.0).then(|| Noise::new(edit.seed, radius_rad)),
-            rough,
-            stamp,
-            reader,
             blend: edit.blend,
             limits: Limits::new(edit, sea_m),
             mask: edit.limiting_mask().filter(|_| !edit.is_scattered()).map(|name| EditMask::new(name, edit)),
-            range: tool.range(heights_m).then(Widening::by(ROUNDING_M, ROUNDING_M)),
+            range: range.then(Widening::by(ROUNDING_M, ROUNDING_M)),
             context: Context::default(),
             own: 0,
-            tool,
+            task,
+            reads,
             arcs,
         };
         (compiled.own, compiled.pieces) = compiled.cut(edit);
@@ -198,9 +161,9 @@ impl CompiledEdit {
 
     /// The hash of its numbers without its line, and the pieces of the line.
     fn cut(&self, edit: &GroundEdit) -> (u128, Vec<Piece>) {
-        let reach_rad = self.radius_rad * self.tool.reach();
+        let reach_rad = self.radius_rad * self.reach;
         let mut common = Hash::default();
-        self.tool.hash(&mut common);
+        self.task.hash(&mut common);
         common.add_f64(self.radius_rad);
         common.add_f64(self.core);
         common.add_f64(self.raggedness);
@@ -212,19 +175,6 @@ impl CompiledEdit {
         if let Some(mask) = &self.mask {
             mask.hash(&mut common);
         }
-        if let Tool::Roughen(rough) = &edit.tool {
-            common.add_f64(rough.wavelength_km);
-        }
-        match &edit.tool {
-            Tool::Smooth(smooth) => common.add_f64(smooth.size),
-            Tool::Thermal(thermal) => common.add_f64(thermal.size),
-            Tool::Hydraulic(gullies) => {
-                common.add(u64::from(gullies.octaves));
-                [gullies.spacing, gullies.steepest_deg].into_iter().for_each(|number| common.add_f64(number));
-            }
-            _ => {}
-        }
-        self.stamp.iter().flat_map(Stamp::content).for_each(|number| common.add(number));
         // Each place of a stamp acts for itself.
         let size = if self.is_stamp { 1 } else { PIECE };
         let piece = |(first, arcs): (usize, &[Arc])| {
@@ -242,7 +192,7 @@ impl CompiledEdit {
             arcs.iter().flat_map(|arc| arc.values).for_each(|value| hash.add_f64(value));
             arcs.iter().for_each(|arc| hash.add_f64(arc.scale));
             arcs.iter().flat_map(|arc| [arc.widths, arc.strengths]).flatten().for_each(|number| hash.add_f64(number));
-            if let Some(stamp) = &self.stamp {
+            if let Reads::Picture(Some(stamp)) = &self.reads {
                 let axes = stamp.axes(first).iter().flat_map(DVec3::to_array);
                 axes.for_each(|part| hash.add_f64(part));
             }
@@ -298,9 +248,9 @@ impl CompiledEdit {
         arc.side_at_joint(other, dir)
     }
 
-    /// The heights of a road over these of its arcs.
-    fn average(&self, dir: DVec3, arcs: &[u32]) -> Average {
-        let mut sum = Average::default();
+    /// The heights of a line over these of its arcs: their mean by weight. None where they have none.
+    fn average(&self, dir: DVec3, arcs: &[u32]) -> Option<(f64, DVec3)> {
+        let (mut weights, mut sum_m) = ((0.0, DVec3::ZERO), (0.0, DVec3::ZERO));
         for arc in arcs.iter().map(|number| &self.arcs[*number as usize]) {
             let ((chord2, inside), taper) = (arc.chord2(dir), arc.taper(dir));
             let radius_rad = self.radius_rad * taper.width;
@@ -309,188 +259,179 @@ impl CompiledEdit {
                 continue;
             }
             let foot = arc.foot(dir, inside);
-            let (weight, by_t) = falloff(t, self.core);
+            let Jet { v: weight, d: [by_t] } = falloff(Jet::<f64, 1>::variable(t, 0), self.core);
             let weight_by_dir = (away(dir, foot.dir) / radius_rad - taper.width_by * (t / taper.width)) * by_t;
             let (height_m, height_by_dir) = arc.value(&foot);
-            sum.weight.0 += weight;
-            sum.weight.1 += weight_by_dir;
-            sum.weighted_m.0 += weight * height_m;
-            sum.weighted_m.1 += weight_by_dir * height_m + height_by_dir * weight;
+            weights.0 += weight;
+            weights.1 += weight_by_dir;
+            sum_m.0 += weight * height_m;
+            sum_m.1 += weight_by_dir * height_m + height_by_dir * weight;
         }
-        sum
+        let height_m = sum_m.0 / weights.0;
+        (weights.0 > 0.0).then(|| (height_m, (sum_m.1 - weights.1 * height_m) / weights.0))
+    }
+
+    /// How the edit reads the ground around a point, if it does.
+    pub(super) fn reader(&self) -> Option<&Reader> {
+        if let Reads::Around(reader) = &self.reads { Some(reader) } else { None }
     }
 
     /// What the edit paints.
     pub(super) fn paint(&self) -> Option<&Paint> {
-        if let CompiledTool::Paint(paint) = &self.tool { Some(paint) } else { None }
+        if let Task::Paint(paint) = &self.task { Some(paint) } else { None }
     }
 
-    /// What it paints of the structure, if it does.
-    pub(super) fn structure_paint(&self) -> Option<StructurePaint> {
-        if let Some(Paint::Structure(paint)) = self.paint() { Some(*paint) } else { None }
-    }
-
-    /// How paint fades at a direction within reach.
-    fn fade(&self, dir: DVec3, nearest: &Nearest) -> Fade {
-        let taper = self.arcs[nearest.arc as usize].taper(dir);
-        let plain = angle_of(nearest.chord2) / (self.radius_rad * taper.width);
+    /// The place of a direction by the line. None out of reach.
+    #[inline(always)]
+    fn place(&self, dir: DVec3, nearest: &Nearest) -> Option<Place> {
+        let arc = &self.arcs[nearest.arc as usize];
+        let taper = arc.taper(dir);
+        let radius_rad = self.radius_rad * arc.scale * taper.width;
+        let plain = angle_of(nearest.chord2) / radius_rad;
+        if plain >= self.reach {
+            return None;
+        }
+        // A ragged outline is nearer than the radius, never farther.
         let ragged = self.outline.as_ref().map(|noise| noise.at(dir));
-        let (stretch, by_noise) = ragged.map_or((1.0, 0.0), |noise| self.stretch(noise.value));
-        let (weight, by_t) = falloff(plain * stretch, self.core);
-        let by_t = by_t * taper.strength;
-        let outline = ragged.map(|noise| (by_t * plain * by_noise, noise));
-        Fade { weight, by_plain: by_t * stretch, plain, taper, outline }
+        let stretch = ragged.map_or((1.0, 0.0), |noise| self.stretch(noise.value));
+        let side = if let Reads::Sides = self.reads { self.side(nearest, dir) } else { 1.0 };
+        let place = Place { taper, radius_rad, plain, stretch, ragged, side };
+        (place.t() < self.reach).then_some(place)
     }
 
-    /// The weight of paint at a direction within reach: 1 in the core, 0 from the radius on.
+    /// The weight of paint at a direction within reach: 1 in the core, 0 from the radius on. Of a road or a wall: 1
+    /// where nothing stands.
     pub(super) fn weight(&self, dir: DVec3, nearest: &Nearest) -> f64 {
-        let fade = self.fade(dir, nearest);
-        fade.weight * fade.taper.strength
+        let Some(place) = self.place(dir, nearest) else { return 0.0 };
+        match self.bare() {
+            Some(bare) => f64::from(u8::from(place.taper.strength > 0.0 && place.t() <= bare)),
+            None => falloff(Jet::<f64, 0>::constant(place.t()), self.core).v * place.taper.strength,
+        }
     }
 
-    /// Whether a direction within reach lies on the bed of a road, up to half-way down its sides, or on the top of a
-    /// wall.
-    pub(super) fn bears_nothing(&self, dir: DVec3, nearest: &Nearest) -> bool {
-        let wide = match self.tool {
-            CompiledTool::Road { .. } => 0.5 * (1.0 + self.core),
-            CompiledTool::Wall { top, .. } => top,
-            _ => return false,
-        };
-        let taper = self.arcs[nearest.arc as usize].taper(dir);
-        let stretch = self.outline.as_ref().map_or(1.0, |noise| self.stretch(noise.at(dir).value).0);
-        let away_rad = angle_of(nearest.chord2) * stretch;
-        taper.strength > 0.0 && away_rad <= wide * self.radius_rad * taper.width
+    /// Share of the radius on which nothing stands, of a road or a wall.
+    fn bare(&self) -> Option<f64> {
+        self.task.tool().and_then(|tool| tool.bare(self.core))
     }
 
-    /// Whether the edit is the bed of a road, or a wall.
+    /// Whether nothing stands on it.
     pub(super) fn is_built(&self) -> bool {
-        matches!(self.tool, CompiledTool::Road { .. } | CompiledTool::Wall { .. })
+        self.bare().is_some()
+    }
+
+    /// Whether it changes a subject.
+    pub(super) fn changes(&self, subject: Subject) -> bool {
+        match (&self.task, subject) {
+            (Task::Ground(_), Subject::Ground) => true,
+            (Task::Ground(_), Subject::Life) => self.is_built(),
+            (Task::Ground(_), _) => false,
+            (Task::Paint(paint), _) => paint.subject() == Some(subject),
+        }
     }
 
     /// The weight of paint with its gradient, as the change of an effect. None where it is 0.
     pub(super) fn weighted(&self, dir: DVec3, nearest: &Nearest) -> Option<Effect<'_>> {
-        let Fade { weight, by_plain, plain, taper, outline } = self.fade(dir, nearest);
-        if weight * taper.strength <= 0.0 {
-            return None;
-        }
-        let radius_rad = self.radius_rad * taper.width;
-        // In the core no direction leads away from the line.
-        let foot = (by_plain != 0.0).then(|| self.arcs[nearest.arc as usize].foot(dir, nearest.inside).dir);
-        let outward = foot.map_or(DVec3::ZERO, |foot| away(dir, foot) * (by_plain / radius_rad));
-        let along = taper.strength_by * weight - taper.width_by * (by_plain * plain / taper.width);
-        Some(Effect {
-            change_m: weight * taper.strength,
-            by_ground: 0.0,
-            by_share: weight * taper.strength,
-            smooth: outward + along,
-            feature_rad: radius_rad * (1.0 - self.core).max(0.1),
-            ground: DVec3::ZERO,
-            outline,
-            rough: None,
-            detail: None,
-        })
+        let place = self.place(dir, nearest)?;
+        let weight = falloff(Dual::variable(place.t(), BY_T), self.core);
+        let weight = weight * Dual::variable(place.taper.strength, BY_STRENGTH);
+        (weight.v > 0.0).then(|| self.effect_of((dir, nearest), &place, weight, 1.0, Slope::None))
     }
 
     /// What the edit does at a point within reach, to ground of a height, by these of its arcs. None if nothing.
-    /// `read`: what it has read of the ground around. `share`: what a mask leaves of the effect.
+    /// `around`: the ground around, if it reads that. `share`: what a mask leaves of the effect.
     #[inline]
     pub(super) fn effect(
         &self,
         dir: DVec3,
         (nearest, arcs): (&Nearest, &[u32]),
         ground_m: f64,
-        read: Option<Read>,
+        around: Option<&Surroundings>,
         share: f64,
     ) -> Option<Effect<'_>> {
-        let arc = &self.arcs[nearest.arc as usize];
-        let taper = arc.taper(dir);
-        let radius_rad = self.radius_rad * arc.scale * taper.width;
-        let plain = angle_of(nearest.chord2) / radius_rad;
-        if plain >= self.tool.reach() {
-            return None;
-        }
-        // A ragged outline is nearer than the radius, never farther.
-        let ragged = self.outline.as_ref().map(|noise| noise.at(dir));
-        let (stretch, by_noise) = ragged.map_or((1.0, 0.0), |noise| self.stretch(noise.value));
-        let t = plain * stretch;
-        if t >= self.tool.reach() {
-            return None;
-        }
-        let rough = self.rough.as_ref().map(|noise| noise.at(dir));
-        let copy = nearest.arc as usize;
-        let (detail, smooth) = match (&self.stamp, read) {
-            (Some(stamp), _) => {
-                let stamped = stamp.at(dir, copy, arc.a, radius_rad);
-                (Some((stamped.value, Detail::Picture(stamped))), None)
-            }
-            (None, Some(Read::Carved(carved))) => (Some((carved.height_m, Detail::Gullies(carved))), None),
-            (None, Some(Read::Smooth(height_m, gradient))) => (None, Some((height_m, gradient))),
-            (None, None) => (None, None),
-        };
-        let has_sides = matches!(self.tool, CompiledTool::Fault { .. } | CompiledTool::Coast { .. });
-        let line = if has_sides {
-            Some(arc.value(&arc.foot(dir, nearest.inside)))
-        } else if let CompiledTool::Road { .. } = self.tool {
-            let Average { weight, weighted_m } = self.average(dir, arcs);
-            let height_m = weighted_m.0 / weight.0;
-            (weight.0 > 0.0).then(|| (height_m, (weighted_m.1 - weight.1 * height_m) / weight.0))
-        } else {
-            smooth
-        };
-        let side = if has_sides { self.side(nearest, dir) } else { 1.0 };
+        let tool = self.task.tool()?;
+        let place = self.place(dir, nearest)?;
+        let Sample { value, slope } = self.read((dir, nearest), arcs, place.radius_rad, around)?;
         let at = At {
-            ground_m,
-            t,
+            ground_m: Dual::variable(ground_m, BY_GROUND),
+            t: Dual::variable(place.t(), BY_T),
             core: self.core,
-            noise: rough.map_or(0.0, |rough| rough.value),
-            line: match &detail {
-                Some((value, _)) => *value,
-                None if matches!(self.tool, CompiledTool::Picture { .. }) => 0.0,
-                None => line.map_or(ground_m, |line| line.0),
-            },
-            side,
-            scale: arc.scale,
+            read: Dual::variable(value, BY_READ),
+            side: place.side,
+            scale: self.arcs[nearest.arc as usize].scale,
         };
-        let change = self.limits.applied(self.tool.change(&at).times(taper.strength * share), ground_m);
+        let change_m = tool.change_m(&at) * Dual::variable(place.taper.strength * share, BY_STRENGTH);
+        let change_m = self.limits.applied(change_m, at.ground_m);
         let stays = match self.blend {
-            EditBlend::Both => false,
-            EditBlend::Raise => change.change_m <= 0.0,
-            EditBlend::Lower => change.change_m >= 0.0,
+            EditBlend::Both => change_m == Dual::constant(0.0),
+            EditBlend::Raise => change_m.v <= 0.0,
+            EditBlend::Lower => change_m.v >= 0.0,
         };
-        if stays {
-            return None;
+        (!stays).then(|| self.effect_of((dir, nearest), &place, change_m, share, slope))
+    }
+
+    /// The quantity that the tool reads at a point. None where there is none.
+    #[inline(always)]
+    fn read(
+        &self,
+        (dir, nearest): (DVec3, &Nearest),
+        arcs: &[u32],
+        radius_rad: f64,
+        around: Option<&Surroundings>,
+    ) -> Option<Sample<'_>> {
+        let arc = &self.arcs[nearest.arc as usize];
+        let line = |(value, gradient)| Sample { value, slope: Slope::Line(gradient) };
+        match &self.reads {
+            Reads::Nothing => Some(Sample { value: 0.0, slope: Slope::None }),
+            Reads::Sides => Some(line(arc.value(&arc.foot(dir, nearest.inside)))),
+            Reads::Heights => self.average(dir, arcs).map(line),
+            Reads::Noise(noise) => {
+                let noise = noise.at(dir);
+                Some(Sample { value: noise.value, slope: Slope::Noise(noise) })
+            }
+            Reads::Picture(stamp) => {
+                let stamped = stamp.as_ref()?.at(dir, nearest.arc as usize, arc.a, radius_rad);
+                Some(Sample { value: stamped.value, slope: Slope::Picture(stamped) })
+            }
+            Reads::Around(reader) => around.map(|around| reader.at(dir, around)),
         }
-        let derivatives = [change.by_t, change.by_ground, change.by_line, change.by_strength];
-        if change.change_m == 0.0 && derivatives == [0.0; 4] {
-            return None;
-        }
+    }
+
+    /// The effect of a change at a place.
+    #[inline(always)]
+    fn effect_of<'a>(
+        &self,
+        (dir, nearest): (DVec3, &Nearest),
+        place: &Place,
+        change: Dual,
+        share: f64,
+        slope: Slope<'a>,
+    ) -> Effect<'a> {
+        let (arc, taper, by_t) = (&self.arcs[nearest.arc as usize], &place.taper, change.d[BY_T]);
         // Where the edit is level, no direction leads away from its line.
-        let outward = match change.by_t == 0.0 {
-            true => DVec3::ZERO,
+        let outward = match (by_t == 0.0, &self.reads) {
+            (true, _) => DVec3::ZERO,
             // The foot of a point on the line tells no direction.
-            false if has_sides && nearest.inside => arc.leftward(dir) * side,
-            false => away(dir, arc.foot(dir, nearest.inside).dir),
+            (false, Reads::Sides) if nearest.inside => arc.leftward(dir) * place.side,
+            _ => away(dir, arc.foot(dir, nearest.inside).dir),
         };
-        let along = taper.strength_by * (change.by_strength * share)
-            - taper.width_by * (change.by_t * stretch * plain / taper.width);
-        let line_by_dir = line.map_or(DVec3::ZERO, |line| line.1) * change.by_line;
-        let (line_by_dir, ground) =
-            if smooth.is_some() { (DVec3::ZERO, line_by_dir) } else { (line_by_dir, DVec3::ZERO) };
-        Some(Effect {
-            change_m: change.change_m,
-            by_ground: 1.0 + change.by_ground,
-            by_share: change.by_strength * taper.strength,
-            smooth: outward * (change.by_t * stretch / radius_rad) + line_by_dir + along,
-            feature_rad: radius_rad * (1.0 - self.core).max(0.1),
-            ground,
-            outline: ragged.map(|noise| (change.by_t * plain * by_noise, noise)),
-            rough: rough.map(|rough| (change.by_noise, rough)),
-            detail: detail.map(|(_, detail)| (change.by_line, detail)),
-        })
+        let (stretch, by_noise) = place.stretch;
+        let along = taper.strength_by * (change.d[BY_STRENGTH] * share)
+            - taper.width_by * (by_t * stretch * place.plain / taper.width);
+        let line = if let Slope::Line(gradient) = slope { gradient * change.d[BY_READ] } else { DVec3::ZERO };
+        Effect {
+            change_m: change.v,
+            by_ground: 1.0 + change.d[BY_GROUND],
+            by_share: change.d[BY_STRENGTH] * taper.strength,
+            smooth: outward * (by_t * stretch / place.radius_rad) + line + along,
+            feature_rad: place.radius_rad * (1.0 - self.core).max(0.1),
+            outline: place.ragged.map(|noise| (by_t * place.plain * by_noise, noise)),
+            read: (change.d[BY_READ], slope),
+        }
     }
 
     /// By how much a ragged outline brings the radius nearer, 1 to 1 + 4 times the raggedness; its derivative by the
     /// noise. The cube makes few deep bays of many shallow ones.
+    #[inline(always)]
     fn stretch(&self, noise: f64) -> (f64, f64) {
         let share = 0.5 + 0.5 * noise / outline::MOST;
         let (cube, by_noise) = (share * share * share, 1.5 * share * share / outline::MOST);

@@ -1,10 +1,10 @@
 //! What edits that read the ground depend on besides their own numbers: the edits before them that are near. It is part
 //! of their content, so that tiles are built again when one of those changes.
 
+use super::Subject;
 use super::compiled::CompiledEdit;
 use super::index::{Hash, Index, Piece};
 use super::memory::LatticeKey;
-use super::paint::Paint;
 use super::path::angle_of;
 use super::reading::Reader;
 use super::roster::{Changes, Roster, slot_of};
@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// Most sources of an edit: a node that none of the latest knows is evaluated from the layers on.
+/// Most sources of an edit: a node that none of the latest surrounds is evaluated from the layers on.
 const MOST_SOURCES: usize = 64;
 
 /// What an edit that reads the ground depends on besides its own numbers.
@@ -20,15 +20,9 @@ const MOST_SOURCES: usize = 64;
 pub(super) struct Context {
     /// Hash of the edits before it that are near; part of the hashes of its pieces.
     hash: u128,
-    /// Those of them that read the ground at the nodes of the same lattice, the latest first.
-    pub(super) sources: Vec<Source>,
-}
-
-/// An earlier edit. The ground before it, at the nodes that it knows, is where the ground before a later one begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Source {
-    pub(super) slot: u32,
-    pub(super) lattice: LatticeKey,
+    /// Slots of those that read the ground at the nodes of the same lattice, the latest first: the ground before the
+    /// edit is evaluated from there on.
+    pub(super) sources: Vec<u32>,
 }
 
 impl CompiledEdit {
@@ -55,10 +49,15 @@ impl CompiledEdit {
 
     /// Whether its context holds every earlier edit that reaches a direction.
     pub(super) fn surrounds(&self, dir: DVec3) -> bool {
-        let Some(reach_rad) = self.reader.as_ref().map(Reader::reach_rad) else { return false };
+        let Some(reader) = self.reader() else { return false };
+        let reach = 2.0 * libm::sin(0.5 * reader.reach_rad().min(std::f64::consts::PI));
         self.pieces.iter().any(|piece| {
-            let within_rad = (radius_rad(piece) + reach_rad) * (1.0 - 1e-9);
-            angle_of(piece.middle.distance_squared(dir)) < within_rad
+            let wide = piece.chord.min(2.0);
+            // The chord of the sum of two angles.
+            let within =
+                wide * (1.0 - 0.25 * reach * reach).max(0.0).sqrt() + reach * (1.0 - 0.25 * wide * wide).sqrt();
+            let is_whole = wide * wide + reach * reach >= 4.0;
+            is_whole || piece.middle.distance_squared(dir) < within * within * (1.0 - 1e-9)
         })
     }
 }
@@ -75,9 +74,9 @@ pub(super) fn refresh(roster: &mut Roster, [ground, masks]: [&Index; 2], changes
     let new = changes.added.iter().filter_map(|slot| roster.edit(*slot).cloned());
     let old = changes.removed.iter().map(|(_, edit)| edit.clone());
     let mut changed: Vec<Arc<CompiledEdit>> =
-        new.chain(old).filter(|edit| edit.paint().is_none_or(Paint::is_mask)).collect();
+        new.chain(old).filter(|edit| edit.changes(Subject::Ground) || edit.changes(Subject::Masks)).collect();
     for (slot, edit) in reading {
-        let Some(reach_rad) = edit.reader.as_ref().map(Reader::reach_rad) else { continue };
+        let Some(reach_rad) = edit.reader().map(Reader::reach_rad) else { continue };
         let chord = reach_rad * (1.0 + 1e-9);
         let touches = |piece: &Piece, other: &Piece| other.touches(piece.middle, piece.chord + chord);
         let is_changed = changes.added.contains(&slot)
@@ -138,17 +137,14 @@ fn near_before(
     listed
 }
 
-/// The sources of an edit among pieces that are near and before it, in order.
-fn sources_of(edit: &CompiledEdit, before: &[u32], roster: &Roster) -> Vec<Source> {
-    let Some(lattice) = edit.reader.as_ref().map(Reader::lattice) else { return Vec::new() };
+/// The slots of the sources of an edit among pieces that are near and before it, in order.
+fn sources_of(edit: &CompiledEdit, before: &[u32], roster: &Roster) -> Vec<u32> {
+    let lattice = edit.reader().map(Reader::lattice);
     let mut slots: Vec<u32> = before.iter().map(|number| slot_of(*number)).collect();
     slots.dedup();
-    let source = |slot: u32| {
-        let earlier = roster.edit(slot)?;
-        let is_same = earlier.reader.as_ref().map(Reader::lattice) == Some(lattice);
-        is_same.then(|| Source { slot, lattice: earlier.lattice_key() })
-    };
-    slots.into_iter().rev().filter_map(source).take(MOST_SOURCES).collect()
+    let is_same = |earlier: &CompiledEdit| lattice.is_some() && earlier.reader().map(Reader::lattice) == lattice;
+    slots.retain(|slot| roster.edit(*slot).is_some_and(|earlier| is_same(earlier)));
+    slots.into_iter().rev().take(MOST_SOURCES).collect()
 }
 
 /// Whether a piece overlaps one of some discs. Exact, unlike the test that the index uses: the cells of the index

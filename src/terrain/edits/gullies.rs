@@ -6,10 +6,8 @@
 //! as deep as that ground is steep, so they end where it is level. Each finer octave follows the ground with the
 //! coarser gullies in it, so that gullies branch, and leaves the crests and beds of those free.
 
-use super::Ground;
-use super::memory::{Known, LatticeKey, Node, Nodes};
+use super::memory::{Known, LatticeKey, Memory, Node, Nodes};
 use super::outline::seen;
-use super::reading::{ReadBy, heights};
 use super::smooth::Lattice;
 use crate::planet::edits::Hydraulic;
 use crate::world::noise::mix;
@@ -69,6 +67,13 @@ pub(super) struct Cell {
     steep: f64,
 }
 
+/// Cells of each octave: those that are known, and those that are not, with their middles.
+#[derive(Debug)]
+pub(super) struct Waves {
+    known: Vec<Known<Cell>>,
+    missing: Vec<Vec<(Node, DVec3)>>,
+}
+
 /// The gullies of an octave at a point, each value with its gradient by the direction.
 struct Profile {
     /// Across gullies from -1 in the bed to 1 on the crest.
@@ -84,7 +89,7 @@ struct Profile {
 pub(super) struct Carved {
     /// What they add to the height: at most a little, and else less than nothing.
     pub(super) height_m: f64,
-    /// Of each octave: the distance between gullies, the gradient by the direction.
+    /// Distance between gullies and gradient by the direction, for each octave.
     octaves: [(f64, DVec3); MOST_OCTAVES],
 }
 
@@ -212,50 +217,57 @@ impl Gullies {
         self.lattice.reach_rad() + 1.1 * cells
     }
 
-    /// Finds the waves around directions, for an edit.
-    pub(super) fn read(
-        &self,
-        of: ReadBy<'_>,
-        dirs: impl Iterator<Item = DVec3>,
-        ground: &Ground<'_>,
-    ) -> Vec<Known<Cell>> {
-        let mut wanted: Vec<Nodes> = self.octaves.iter().map(|_| Nodes::default()).collect();
-        for dir in dirs {
-            for (octave, wanted) in self.octaves.iter().zip(&mut wanted) {
-                octave.each_cell(dir, |node, _| {
-                    wanted.insert(node);
-                });
-            }
+    /// Adds the cells around a direction, for each octave.
+    pub(super) fn ask(&self, dir: DVec3, cells: &mut Vec<Nodes>) {
+        cells.resize_with(self.octaves.len(), Nodes::default);
+        for (octave, cells) in self.octaves.iter().zip(cells) {
+            octave.each_cell(dir, |node, _| {
+                cells.insert(node);
+            });
         }
-        let lattice_of = |k: usize| lattice_of(of.lattice, k);
+    }
+
+    /// What is known of cells that an edit needs. Adds the nodes whose heights the others need.
+    pub(super) fn recall(&self, key: LatticeKey, mut cells: Vec<Nodes>, nodes: &mut Nodes, memory: &Memory) -> Waves {
+        let count = self.octaves.len();
+        cells.resize_with(count, Nodes::default);
+        let (mut known, mut missing) = (vec![Known::default(); count], vec![Vec::new(); count]);
         // From the finest on: a new cell needs the coarser cells around it.
-        let mut known: Vec<Known<Cell>> = self.octaves.iter().map(|_| Known::default()).collect();
-        let mut missing: Vec<Vec<(Node, DVec3)>> = vec![Vec::new(); self.octaves.len()];
         for (k, octave) in self.octaves.iter().enumerate().rev() {
-            let (found, lacking) = ground.memory.cells.recall(lattice_of(k), std::mem::take(&mut wanted[k]));
+            let (found, lacking) = memory.cells.recall(lattice_of(key, k), std::mem::take(&mut cells[k]));
             known[k] = found;
             missing[k] = lacking.into_iter().map(|node| (node, octave.middle(node).normalize_or(DVec3::Z))).collect();
             for (_, middle) in &missing[k] {
-                for (coarser, wanted) in self.octaves[..k].iter().zip(&mut wanted) {
+                for (coarser, cells) in self.octaves[..k].iter().zip(&mut cells) {
                     coarser.each_cell(*middle, |node, _| {
-                        wanted.insert(node);
+                        cells.insert(node);
                     });
                 }
+                self.lattice.ask(*middle, nodes);
             }
         }
-        let middles = missing.iter().flatten().map(|(_, middle)| *middle);
-        let smooth = heights(&self.lattice, of, middles, ground);
+        Waves { known, missing }
+    }
+
+    /// The waves of all cells, from the heights of those nodes.
+    pub(super) fn finish(
+        &self,
+        key: LatticeKey,
+        Waves { mut known, missing }: Waves,
+        heights: &Known<f64>,
+        memory: &Memory,
+    ) -> Vec<Known<Cell>> {
         for (k, (octave, new)) in self.octaves.iter().zip(missing).enumerate() {
             let cell = |(node, middle): (Node, DVec3)| {
                 let coarser = self.octaves[..k].iter().zip(&known);
                 let coarser: DVec3 = carve(coarser, middle).map(|(_, gradient)| gradient).sum();
-                let slope = self.lattice.at(middle, &smooth).1;
+                let slope = self.lattice.at(middle, heights).1;
                 let [slope, led] = [slope, slope + coarser * BRANCH].map(|slope| slope - middle * middle.dot(slope));
                 let steep = (slope.length() / self.radius_m).min(self.most_steep);
                 (node, Cell { phase: middle.cross(led).normalize_or_zero() * (TAU / octave.width), steep })
             };
             let new: Vec<(Node, Cell)> = new.into_iter().map(cell).collect();
-            ground.memory.cells.keep(lattice_of(k), &new);
+            memory.cells.keep(lattice_of(key, k), &new);
             known[k].extend(new);
         }
         known

@@ -131,7 +131,7 @@ fn disc_of(id: NodeId) -> (DVec3, f64) {
 pub(super) struct Cell {
     /// None for a leaf. A cell without pieces is a leaf.
     quarters: Option<[Arc<Cell>; 4]>,
-    /// Of a leaf: its pieces.
+    /// Pieces of a leaf; empty in other cells.
     listed: Vec<Listed>,
     /// Numbers of its pieces, in the order in which they act.
     list: Vec<u32>,

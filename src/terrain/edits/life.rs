@@ -1,12 +1,12 @@
 //! Painted life: strokes that clear the ground or plant it, roads and walls, on which nothing stands, and objects that
 //! are placed one by one.
 
-use super::Edits;
 use super::compiled::CompiledEdit;
-use super::near::{Hit, Near, Touch};
+use super::near::Near;
 use super::paint::Paint;
 use super::path::Arc;
 use super::roster::slot_of;
+use super::{Edits, Subject};
 use crate::planet::Key;
 use crate::sphere::NodeId;
 use glam::DVec3;
@@ -14,16 +14,16 @@ use std::cell::RefCell;
 
 /// A population, by a hash of its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct PopulationId(Key);
+pub(crate) struct PopulationId(pub(super) Key);
 
 impl PopulationId {
     pub(crate) fn of(name: &str) -> Self {
         Self(Key::of(name))
     }
 
-    /// The two halves of the hash.
-    pub(super) fn words(self) -> [u64; 2] {
-        [(self.0.bits() >> 64) as u64, self.0.bits() as u64]
+    /// Population of this name; None if the name is empty.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        (!name.is_empty()).then(|| Self::of(name))
     }
 }
 
@@ -70,18 +70,13 @@ impl Placed {
 }
 
 impl CompiledEdit {
-    /// Whether it changes what stands on the ground.
-    pub(super) fn is_life(&self) -> bool {
-        self.is_built() || matches!(self.paint(), Some(Paint::Life { .. } | Paint::Object { .. }))
-    }
-
     /// Whether it places objects of a population, or of the first one.
     fn places(&self, population: PopulationId) -> bool {
         matches!(self.paint(), Some(Paint::Object { population: of, .. }) if of.is_none_or(|of| of == population))
     }
 
     /// Whether it changes where a population stands.
-    fn changes(&self, population: PopulationId) -> bool {
+    fn moves(&self, population: PopulationId) -> bool {
         self.plants(Some(population)) || self.places(population)
     }
 
@@ -90,7 +85,7 @@ impl CompiledEdit {
         match self.paint() {
             Some(Paint::Life { population: Some(painted), .. }) => population == Some(*painted),
             Some(Paint::Object { .. }) => false,
-            _ => self.is_life(),
+            _ => self.changes(Subject::Life),
         }
     }
 }
@@ -98,37 +93,32 @@ impl CompiledEdit {
 impl Edits {
     /// Whether an edit changes what stands on the ground.
     pub(crate) fn plants(&self) -> bool {
-        !self.life.is_empty()
-    }
-
-    /// The key of all edits of what stands on the ground. None if there is none.
-    pub(crate) fn life_key(&self) -> Option<Key> {
-        (!self.life.is_empty()).then(|| Self::with_masks(self.life.key_of_all(), self.masked.life, || self.mask_key()))
+        !self.index(Subject::Life).is_empty()
     }
 
     /// Whether edits that touch a node change where a population stands.
     pub(crate) fn touches_life(&self, id: NodeId, population: PopulationId) -> bool {
-        self.life.pieces_of_some(id, &self.roster, |edit| edit.changes(population)).next().is_some()
+        self.index(Subject::Life).pieces_of_some(id, &self.roster, |edit| edit.moves(population)).next().is_some()
     }
 
     /// The key of the edits that touch a node and change where a population stands. None if none does.
     pub(crate) fn life_key_near(&self, id: NodeId, population: PopulationId) -> Option<Key> {
-        let key = self.life.key_of_some(id, &self.roster, |edit| edit.changes(population))?;
-        Some(Self::with_masks(key, self.masked.life, || self.mask_key_near(id)))
+        let key = self.index(Subject::Life).key_of_some(id, &self.roster, |edit| edit.moves(population))?;
+        Some(self.with_masks(key, Subject::Life, || self.key_near(Subject::Masks, id)))
     }
 
     /// The key of the edits that touch a disc, given by its middle and chord, and change the share of a population;
     /// without a population, of those that change all. None if none does.
     #[cfg(feature = "render")]
     pub(crate) fn life_key_in(&self, disc: (DVec3, f64), population: Option<PopulationId>) -> Option<Key> {
-        let key = self.life.key_in(disc, &self.roster, |edit| edit.plants(population))?;
-        Some(Self::with_masks(key, self.masked.life, || self.mask_key()))
+        let key = self.index(Subject::Life).key_in(disc, &self.roster, |edit| edit.plants(population))?;
+        Some(self.with_masks(key, Subject::Life, || self.key(Subject::Masks)))
     }
 
     /// The objects of a population that are placed by hand in a node. `is_first`: whether it is the first one.
     pub(crate) fn placed(&self, id: NodeId, (population, is_first): (PopulationId, bool)) -> Vec<Placed> {
         let mut placed = Vec::new();
-        for number in self.life.pieces_of_some(id, &self.roster, |edit| edit.places(population)) {
+        for number in self.index(Subject::Life).pieces_of_some(id, &self.roster, |edit| edit.places(population)) {
             let (Some(edit), Some(piece)) = (self.roster.edit(slot_of(number)), self.roster.piece(number)) else {
                 continue;
             };
@@ -177,23 +167,16 @@ impl Edits {
             static NEAR: RefCell<Near> = RefCell::default();
         }
         planted.clear();
-        if self.life.is_empty() {
+        if self.index(Subject::Life).is_empty() {
             return;
         }
         let mut near = NEAR.take();
-        let counts = |_: u32, edit: &CompiledEdit| edit.plants(population);
-        near.each_touch(&self.life, &self.roster, dirs, counts, |Touch { edit, hits, .. }| {
-            let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), &[]);
-            for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
-                let (density, weight) = match edit.paint() {
-                    Some(Paint::Life { density, .. }) => (*density, edit.weight(dirs[*i], nearest)),
-                    _ => (0.0, f64::from(u8::from(edit.bears_nothing(dirs[*i], nearest)))),
-                };
-                let weight = weight * shares.of(own);
-                if weight > 0.0 {
-                    planted.resize(dirs.len(), Planting::NONE);
-                    planted[*i].lead(density, weight);
-                }
+        let counts = |edit: &CompiledEdit| edit.plants(population);
+        self.each_weight(Subject::Life, dirs, &mut near, counts, |i, edit, weight, share| {
+            let density = if let Some(Paint::Life { density, .. }) = edit.paint() { *density } else { 0.0 };
+            if weight * share > 0.0 {
+                planted.resize(dirs.len(), Planting::NONE);
+                planted[i].lead(density, weight * share);
             }
         });
         NEAR.set(near);

@@ -1,48 +1,32 @@
 //! Masks that are painted by hand: strokes lead from 0 towards 1, or back. They limit layers and other edits.
 
-use super::Edits;
 use super::compiled::CompiledEdit;
 use super::index::{Hash, Index};
 use super::near::{Hit, Near, Touch};
 use super::paint::Paint;
 use super::roster::Roster;
+use super::{Edits, Subject};
 use crate::planet::{GroundEdit, Key};
-use crate::sphere::NodeId;
 use crate::terrain::landform::MAX_BANDS;
 use glam::DVec3;
 use std::cell::RefCell;
 
 /// A painted mask, by a hash of its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct MaskId(Key);
+pub(crate) struct MaskId(pub(super) Key);
 
 impl MaskId {
     pub(crate) fn of(name: &str) -> Self {
         Self(Key::of(name))
     }
-
-    /// The two halves of the hash.
-    pub(super) fn words(self) -> [u64; 2] {
-        [(self.0.bits() >> 64) as u64, self.0.bits() as u64]
-    }
 }
 
 impl Edits {
-    /// The key of all paint of masks. None if there is none.
-    pub(crate) fn mask_key(&self) -> Option<Key> {
-        (!self.masks.is_empty()).then(|| self.masks.key_of_all())
-    }
-
-    /// The key of the paint of masks that touches a node and the ground close around it. None if none does.
-    pub(crate) fn mask_key_near(&self, id: NodeId) -> Option<Key> {
-        self.masks.key_near(id, &self.roster)
-    }
-
     /// Whether paint of masks may be within a chord of a direction.
     pub(crate) fn may_mask(&self, disc: (DVec3, f64)) -> bool {
         let touches = |number: &u32| self.roster.piece(*number).is_some_and(|piece| piece.touches(disc.0, disc.1));
         let mut may = false;
-        self.masks.each_leaf(Some(disc), &mut |pieces| may = may || pieces.iter().any(touches));
+        self.index(Subject::Masks).each_leaf(Some(disc), &mut |pieces| may = may || pieces.iter().any(touches));
         may
     }
 
@@ -55,7 +39,7 @@ impl Edits {
         spacings_rad: &[f64],
         each: impl FnMut(usize, f64, &[DVec3]),
     ) {
-        Strokes { index: &self.masks, roster: &self.roster }.masked(mask, dirs, spacings_rad, each);
+        Strokes { index: self.index(Subject::Masks), roster: &self.roster }.masked(mask, dirs, spacings_rad, each);
     }
 
     /// What the mask of an edit leaves of it at points.
@@ -92,7 +76,7 @@ impl EditMask {
     }
 
     pub(super) fn hash(&self, hash: &mut Hash) {
-        self.id.words().into_iter().for_each(|word| hash.add(word));
+        self.id.0.words().into_iter().for_each(|word| hash.add(word));
         hash.add(u64::from(self.is_outside));
     }
 

@@ -1,9 +1,9 @@
 //! Ground edits, compiled: strokes, stamps and splines that change the height of the joined layers.
 //!
 //! - `path`: the line through the points of an edit, and the nearest place of it
-//! - `tool`: what each tool does to a height, with derivatives and bounds
+//! - `tool`: the tools, one file each: what each does to a height, with derivatives and bounds
 //! - `widening`: what edits do to the bounds of heights
-//! - `reading`: edits that read the ground around a point
+//! - `reading`: what edits read besides: the ground around a point, as the edits before left it
 //! - `smooth`: ground without fine detail, around a point
 //! - `gullies`: gullies down the slopes of that ground
 //! - `memory`: what those have found out, node by node
@@ -67,14 +67,36 @@ pub(crate) use near::Near;
 use near::{Hit, Touch};
 pub(crate) use paint::Painted;
 use paint::{Paint, Places};
-use reading::{ReadBy, Reader};
-use roster::{Roster, slot_of};
+use reading::Reader;
+pub(crate) use reading::Surrounded;
+use roster::{Changes, Roster, slot_of};
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 use widening::Widening;
 
 /// Edits around a place that read the ground, beyond which its bounds are those of the planet.
 const MOST_READING: usize = 16;
+
+/// Subject that edits change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Subject {
+    Ground,
+    /// Climate, and the climates of the biomes that are painted.
+    Climate,
+    Clouds,
+    /// Painted masks of layers and of other edits.
+    Masks,
+    /// What stands on the ground.
+    Life,
+    /// Structure, and rivers whose courses are drawn.
+    Structure,
+}
+
+impl Subject {
+    /// All subjects, in the order of their indices.
+    const ALL: [Self; 6] = [Self::Ground, Self::Climate, Self::Clouds, Self::Masks, Self::Life, Self::Structure];
+}
 
 /// The edits of a planet that are on, compiled.
 #[derive(Clone)]
@@ -83,68 +105,14 @@ pub(crate) struct Edits {
     world: World,
     list: GroundEdits,
     roster: Roster,
-    /// Those that change the ground.
-    ground: Index,
-    /// Those that paint the climate, and the climates of the biomes that they paint.
-    climate: Index,
+    /// Pieces of the edits of each subject.
+    indices: [Index; Subject::ALL.len()],
+    /// Whether a painted mask limits one of them, for each subject.
+    masked: [bool; Subject::ALL.len()],
     places: Places,
-    /// Those that paint clouds.
-    clouds: Index,
-    /// Those that paint masks of layers.
-    masks: Index,
-    /// Those that change what stands on the ground.
-    life: Index,
-    /// Those that paint the structure, and rivers whose courses are drawn.
-    structural: Index,
     courses: Vec<DrawnCourse>,
-    key: Key,
-    /// Whether an edit reads the ground around a point.
-    reads: bool,
-    masked: Masked,
-}
-
-/// Which edits painted masks limit: whether one of the ground, of the climate, of clouds, of the structure, of life.
-#[derive(Clone, Copy, Debug, Default)]
-struct Masked {
-    ground: bool,
-    climate: bool,
-    clouds: bool,
-    structure: bool,
-    life: bool,
-}
-
-impl Masked {
-    fn of(roster: &Roster) -> Self {
-        let mut masked = Self::default();
-        for edit in roster.edits().filter(|edit| edit.mask.is_some()) {
-            match edit.paint() {
-                None => masked.ground = true,
-                Some(Paint::Clouds { .. }) => masked.clouds = true,
-                Some(Paint::Structure(_)) => masked.structure = true,
-                Some(Paint::Life { .. } | Paint::Object { .. }) => {}
-                Some(_) => masked.climate = true,
-            }
-            masked.life |= edit.is_life();
-        }
-        masked
-    }
-}
-
-/// Heights at directions as the edits before the one in a slot left them. They may begin where an earlier edit began.
-type Before<'a> = dyn Fn(u32, &[DVec3], Option<&Begun>) -> Vec<f64> + 'a;
-
-/// The ground before an edit, for those that read it around a point.
-pub(crate) struct Ground<'a> {
-    pub(crate) before: &'a Before<'a>,
-    pub(crate) memory: &'a Memory,
-}
-
-/// The ground before an earlier edit, from which that before a later one is evaluated.
-pub(crate) struct Begun {
-    /// The slot of the earlier edit.
-    pub(crate) slot: u32,
-    /// Heights at the same points.
-    pub(crate) heights_m: Vec<f64>,
+    /// Pieces of the edits that read the ground around a point.
+    reading: Index,
 }
 
 /// The edits that act: from the one in a slot on, and before the one in another.
@@ -156,14 +124,13 @@ pub(crate) struct Span {
 
 impl fmt::Debug for Edits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Edits")
-            .field(&self.key)
-            .field(&self.paint_key())
-            .field(&self.cloud_key())
-            .field(&self.structure_key())
-            .field(&self.mask_key())
-            .field(&self.life_key())
-            .finish()
+        let mut tuple = f.debug_tuple("Edits");
+        tuple.field(&self.index(Subject::Ground).key_of_all());
+        let others = [Subject::Climate, Subject::Clouds, Subject::Structure, Subject::Masks, Subject::Life];
+        for subject in others {
+            tuple.field(&self.key(subject));
+        }
+        tuple.finish()
     }
 }
 
@@ -190,59 +157,54 @@ impl Edits {
     }
 
     fn none(world: World) -> Self {
-        let ground = Index::default();
-        let key = ground.key_of_all();
         Self {
             world,
             list: GroundEdits::default(),
             roster: Roster::default(),
-            ground,
-            climate: Index::default(),
-            clouds: Index::default(),
-            masks: Index::default(),
-            life: Index::default(),
-            structural: Index::default(),
-            courses: Vec::new(),
+            indices: Default::default(),
+            masked: Default::default(),
             places: Places::default(),
-            key,
-            reads: false,
-            masked: Masked::default(),
+            courses: Vec::new(),
+            reading: Index::default(),
         }
     }
 
-    /// Those of the next revision.
+    /// The edits of the next revision.
     fn next(&self, planet: &Planet) -> Self {
         profiling::scope!("compile edits");
         let (world, list) = (self.world, planet.edits.clone());
         let compile =
             |shared: &Arc<Shared>| Arc::new(CompiledEdit::new(&shared.edit, world.radius_m, world.sea_m, None));
         let (mut roster, mut changes) = self.roster.next(&planet.edits, compile);
-        let masks = self.masks.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_mask));
+        let next = |subject: Subject, roster: &Roster, changes: &Changes| {
+            self.index(subject).next(roster, changes, |edit| edit.changes(subject))
+        };
+        let masks = next(Subject::Masks, &roster, &changes);
         scatter::refresh(&mut roster, &mut changes, &masks, world);
-        let is_ground = |edit: &CompiledEdit| edit.paint().is_none();
-        let mut ground = self.ground.next(&roster, &changes, is_ground);
-        let climate = self.climate.next(&roster, &changes, |edit| edit.paint().is_some_and(Paint::is_climate));
-        let clouds = self.clouds.next(&roster, &changes, |edit| matches!(edit.paint(), Some(Paint::Clouds { .. })));
-        let life = self.life.next(&roster, &changes, CompiledEdit::is_life);
-        let structural = self.structural.next(&roster, &changes, |edit| edit.structure_paint().is_some());
+        let mut indices = Subject::ALL.map(|subject| next(subject, &roster, &changes));
         let courses =
             if changes.is_empty() { self.courses.clone() } else { structural::courses_of(&roster, world.radius_m) };
         // What reads the ground depends on the edits before it.
-        let later = context::refresh(&mut roster, [&ground, &masks], &changes);
+        let later = context::refresh(&mut roster, [&indices[Subject::Ground as usize], &masks], &changes);
         if !later.is_empty() {
-            ground = ground.next(&roster, &later, is_ground);
+            let ground = &mut indices[Subject::Ground as usize];
+            *ground = ground.next(&roster, &later, |edit| edit.changes(Subject::Ground));
         }
-        let places = self.places.next(planet, painted_biomes(planet, &climate));
-        let reads = roster.reading().next().is_some();
-        let masked = Masked::of(&roster);
-        let key = ground.key_of_all();
-        let indices = Self { ground, climate, clouds, masks, life, structural, ..Self::none(world) };
-        Self { list, roster, key, places, courses, reads, masked, ..indices }
+        let places = self.places.next(planet, painted_biomes(planet, &indices[Subject::Climate as usize]));
+        let reading = self.reading.next(&roster, &changes, |edit| edit.reader().is_some());
+        let masked =
+            Subject::ALL.map(|subject| roster.edits().any(|edit| edit.mask.is_some() && edit.changes(subject)));
+        Self { world, list, roster, indices, masked, places, courses, reading }
     }
 
-    /// The same edits on a planet whose biome table may be another.
+    /// The pieces of the edits of a subject.
+    fn index(&self, subject: Subject) -> &Index {
+        &self.indices[subject as usize]
+    }
+
+    /// Edits for a planet that differs in its biome table at most.
     fn over(self: &Arc<Self>, planet: &Planet) -> Arc<Self> {
-        let places = self.places.next(planet, painted_biomes(planet, &self.climate));
+        let places = self.places.next(planet, painted_biomes(planet, self.index(Subject::Climate)));
         if places == self.places {
             return self.clone();
         }
@@ -251,7 +213,7 @@ impl Edits {
 
     /// The memory of edits that read ground which has this key before all edits, after that of an earlier terrain.
     pub(crate) fn memory(&self, ground: Key, before: &Arc<Memory>) -> Arc<Memory> {
-        if !self.reads {
+        if self.reading.is_empty() {
             return Arc::default();
         }
         let lattices = self.roster.reading().flat_map(|(_, edit)| {
@@ -261,42 +223,42 @@ impl Edits {
         Memory::after(before, ground, &lattices.collect())
     }
 
-    /// The key of all edits of the ground. None if there is none.
-    pub(crate) fn key(&self) -> Option<Key> {
-        (!self.ground.is_empty()).then(|| Self::with_masks(self.key, self.masked.ground, || self.mask_key()))
+    /// The key of all edits of a subject. None if there is none. Files of world maps hold that of the structure.
+    pub(crate) fn key(&self, subject: Subject) -> Option<Key> {
+        let index = self.index(subject);
+        let (key, is_none) = match subject {
+            Subject::Climate => (Key::of(&(index.key_of_all(), &self.places.places)), index.is_empty()),
+            Subject::Structure => {
+                (Key::of(&(index.key_of_all(), &self.courses)), index.is_empty() && self.courses.is_empty())
+            }
+            _ => (index.key_of_all(), index.is_empty()),
+        };
+        (!is_none).then(|| self.with_masks(key, subject, || self.key(Subject::Masks)))
     }
 
-    /// The key of all paint of clouds. None if there is none.
-    pub(crate) fn cloud_key(&self) -> Option<Key> {
-        (!self.clouds.is_empty())
-            .then(|| Self::with_masks(self.clouds.key_of_all(), self.masked.clouds, || self.mask_key()))
+    /// The key of the edits of a subject that touch a node and the ground close around it. None if none does.
+    pub(crate) fn key_near(&self, subject: Subject, id: NodeId) -> Option<Key> {
+        let key = self.index(subject).key_near(id, &self.roster)?;
+        let key = if subject == Subject::Climate { Key::of(&(key, &self.places.places)) } else { key };
+        Some(self.with_masks(key, subject, || self.key_near(Subject::Masks, id)))
     }
 
-    /// The key of all paint of the climate. None if there is none.
-    pub(crate) fn paint_key(&self) -> Option<Key> {
-        let key = || Key::of(&(self.climate.key_of_all(), &self.places.places));
-        (!self.climate.is_empty()).then(|| Self::with_masks(key(), self.masked.climate, || self.mask_key()))
+    /// A key of edits of a subject with that of the masks, if masks limit some of them.
+    fn with_masks(&self, key: Key, subject: Subject, masks: impl FnOnce() -> Option<Key>) -> Key {
+        if !self.masked[subject as usize] {
+            return key;
+        }
+        masks().map_or(key, |masks| Key::of(&(key, masks)))
     }
 
-    /// The key of the edits that touch a node and the ground close around it. None if none does.
-    pub(crate) fn key_near(&self, id: NodeId) -> Option<Key> {
-        let key = self.ground.key_near(id, &self.roster)?;
-        Some(Self::with_masks(key, self.masked.ground, || self.mask_key_near(id)))
-    }
-
-    /// The key of paint of the climate that touches a node and the ground close around it. None if none does.
-    pub(crate) fn paint_key_near(&self, id: NodeId) -> Option<Key> {
-        let key = self.climate.key_near(id, &self.roster)?;
-        let key = Key::of(&(key, &self.places.places));
-        Some(Self::with_masks(key, self.masked.climate, || self.mask_key_near(id)))
-    }
-
-    /// A key of edits with that of the masks, if masks limit some of them.
-    fn with_masks(key: Key, is_masked: bool, masks: impl FnOnce() -> Option<Key>) -> Key {
-        if is_masked { masks().map_or(key, |masks| Key::of(&(key, masks))) } else { key }
+    /// The ranks of the edits of a span.
+    fn ranks(&self, span: Span) -> Range<u32> {
+        let rank_of = |slot: u32| self.roster.rank_of(slot);
+        span.from.map_or(0, rank_of)..span.before.map_or(u32::MAX, rank_of)
     }
 
     /// Changes the heights of points, and their gradients for each of the spacings, by a span of edits.
+    /// `surrounded`: what these edits need around the points, see [`Edits::surroundings`].
     pub(crate) fn apply(
         &self,
         dirs: &[DVec3],
@@ -304,25 +266,19 @@ impl Edits {
         heights: &mut Heights,
         limits_m: (f64, f64),
         near: &mut Near,
-        (ground, span): (&Ground<'_>, Span),
+        (surrounded, span): (&Surrounded, Span),
     ) {
-        let rank_of = |slot: u32| self.roster.rank_of(slot);
-        let ranks = span.from.map_or(0, rank_of)..span.before.map_or(u32::MAX, rank_of);
-        let acts = |slot: u32, _: &CompiledEdit| ranks.contains(&rank_of(slot));
-        near.each_touch(&self.ground, &self.roster, dirs, acts, |Touch { slot, edit, arcs, hits }| {
-            let around = edit.reader.as_ref().map(|reader| {
-                let sources = &edit.context.sources;
-                let of = ReadBy { slot, lattice: edit.lattice_key(), sources, roster: &self.roster };
-                (reader, reader.read(of, hits.iter().map(|hit| dirs[hit.point]), ground))
-            });
+        let ranks = self.ranks(span);
+        let acts = |slot: u32, _: &CompiledEdit| ranks.contains(&self.roster.rank_of(slot));
+        near.each_touch(self.index(Subject::Ground), &self.roster, dirs, acts, |Touch { slot, edit, arcs, hits }| {
+            let around = surrounded.of(slot);
             let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), spacings_rad);
             for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
                 let (i, dir, share) = (*i, dirs[*i], shares.of(own));
                 if share <= 0.0 {
                     continue;
                 }
-                let read = around.as_ref().and_then(|(reader, around)| reader.at(dir, around));
-                let Some(effect) = edit.effect(dir, (nearest, arcs), heights.height_m[i], read, share) else {
+                let Some(effect) = edit.effect(dir, (nearest, arcs), heights.height_m[i], around, share) else {
                     continue;
                 };
                 let changed_m = heights.height_m[i] + effect.change_m;
@@ -338,26 +294,40 @@ impl Edits {
         });
     }
 
+    /// Calls `each` with the points within reach of edits of a subject: the number of a point, the edit, the weight of
+    /// its paint there, and the share that a mask leaves of it. `wanted`: which edits count.
+    fn each_weight(
+        &self,
+        subject: Subject,
+        dirs: &[DVec3],
+        near: &mut Near,
+        wanted: impl Fn(&CompiledEdit) -> bool,
+        mut each: impl FnMut(usize, &CompiledEdit, f64, f64),
+    ) {
+        let counts = |_: u32, edit: &CompiledEdit| wanted(edit);
+        near.each_touch(self.index(subject), &self.roster, dirs, counts, |Touch { edit, hits, .. }| {
+            let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), &[]);
+            for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
+                each(*i, edit, edit.weight(dirs[*i], nearest), shares.of(own));
+            }
+        });
+    }
+
     /// The paint of the climate at points; nothing if there is none at any.
     pub(crate) fn painted(&self, dirs: &[DVec3], near: &mut Near, painted: &mut Vec<Painted>) {
         painted.clear();
-        if self.climate.is_empty() {
+        if self.index(Subject::Climate).is_empty() {
             return;
         }
-        near.each_touch(
-            &self.climate,
-            &self.roster,
+        self.each_weight(
+            Subject::Climate,
             dirs,
-            |_, _| true,
-            |Touch { edit, hits, .. }| {
-                let Some(paint) = edit.paint() else { return };
-                let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), &[]);
-                for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
-                    let weight = edit.weight(dirs[*i], nearest) * shares.of(own);
-                    if weight > 0.0 {
-                        painted.resize(dirs.len(), Painted::NONE);
-                        paint.apply(&mut painted[*i], weight, |key| self.places.of(key));
-                    }
+            near,
+            |_| true,
+            |i, edit, weight, share| {
+                if let Some(paint) = edit.paint().filter(|_| weight * share > 0.0) {
+                    painted.resize(dirs.len(), Painted::NONE);
+                    paint.apply(&mut painted[i], weight * share, |key| self.places.of(key));
                 }
             },
         );
@@ -366,16 +336,14 @@ impl Edits {
     /// By how much paint changes the log-odds of the cover of clouds at points: calls `each` with the number of a point
     /// and the change.
     pub(crate) fn clouded(&self, dirs: &[DVec3], near: &mut Near, mut each: impl FnMut(usize, f64)) {
-        near.each_touch(
-            &self.clouds,
-            &self.roster,
+        self.each_weight(
+            Subject::Clouds,
             dirs,
-            |_, _| true,
-            |Touch { edit, hits, .. }| {
-                let Some(Paint::Clouds { odds }) = edit.paint() else { return };
-                let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), &[]);
-                for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
-                    each(*i, odds * edit.weight(dirs[*i], nearest) * shares.of(own));
+            near,
+            |_| true,
+            |i, edit, weight, share| {
+                if let Some(Paint::Clouds { odds }) = edit.paint() {
+                    each(i, odds * weight * share);
                 }
             },
         );
@@ -383,29 +351,24 @@ impl Edits {
 
     /// Whether paint of the climate may be at one of these points.
     pub(crate) fn may_paint(&self, dirs: &[DVec3], near: &mut Near) -> bool {
-        !self.climate.is_empty() && near.holds_any(&self.climate, dirs)
+        !self.index(Subject::Climate).is_empty() && near.holds_any(self.index(Subject::Climate), dirs)
     }
 
     /// Whether edits of the ground reach each of some points.
     #[cfg(feature = "bake")]
     pub(crate) fn reached(&self, dirs: &[DVec3]) -> Vec<bool> {
         let mut reached = vec![false; dirs.len()];
-        Near::default().each_touch(
-            &self.ground,
-            &self.roster,
-            dirs,
-            |_, _| true,
-            |Touch { hits, .. }| {
-                hits.iter().for_each(|hit| reached[hit.point] = true);
-            },
-        );
+        let (ground, all) = (self.index(Subject::Ground), |_: u32, _: &CompiledEdit| true);
+        Near::default().each_touch(ground, &self.roster, dirs, all, |Touch { hits, .. }| {
+            hits.iter().for_each(|hit| reached[hit.point] = true);
+        });
         reached
     }
 
     /// A disc that holds all ground that edits reach: its middle and its angle. None if there is none.
     #[cfg(feature = "bake")]
     pub(crate) fn disc(&self) -> Option<(DVec3, f64)> {
-        let pieces = || self.roster.edits().filter(|edit| edit.paint().is_none()).flat_map(|edit| &edit.pieces);
+        let pieces = || self.roster.edits().filter(|edit| edit.changes(Subject::Ground)).flat_map(|edit| &edit.pieces);
         let middle = pieces().map(|piece| piece.middle).sum::<DVec3>().try_normalize()?;
         let reach_rad = |piece: &Piece| middle.angle_between(piece.middle) + path::angle_of(piece.chord * piece.chord);
         Some((middle, pieces().map(reach_rad).fold(0.0, f64::max)))
@@ -415,16 +378,16 @@ impl Edits {
     /// where edits read the ground.
     pub(crate) fn reach_rad(&self, dir: DVec3, angle_rad: f64) -> f64 {
         let (mut reach_rad, mut counted) = (angle_rad, Vec::new());
-        if !self.reads {
+        if self.reading.is_empty() {
             return angle_rad;
         }
         loop {
             let before = counted.len();
             let disc = (dir, index::chord_of(reach_rad));
-            self.ground.each_leaf(Some(disc), &mut |pieces| {
+            self.index(Subject::Ground).each_leaf(Some(disc), &mut |pieces| {
                 for &number in pieces {
                     let slot = slot_of(number);
-                    let reader = self.roster.edit(slot).and_then(|edit| edit.reader.as_ref());
+                    let reader = self.roster.edit(slot).and_then(|edit| edit.reader());
                     let touches = self.roster.piece(number).is_some_and(|piece| piece.touches(disc.0, disc.1));
                     if let Some(reader) = reader.filter(|_| touches && !counted.contains(&slot)) {
                         counted.push(slot);
@@ -444,21 +407,22 @@ impl Edits {
     /// Widens the lowest and greatest height of the layers by what the edits do within an angle of a direction (None:
     /// anywhere). Conservative.
     pub(crate) fn bounds_m(&self, (lo, hi): (f64, f64), near: Option<(DVec3, f64)>) -> (f64, f64) {
-        if near.is_none() && !self.reads {
-            return self.ground.range().of((lo, hi));
+        if near.is_none() && self.reading.is_empty() {
+            return self.index(Subject::Ground).range().of((lo, hi));
         }
         let near = near.map(|(dir, angle_rad)| (dir, index::chord_of(angle_rad)));
         let is_near = |piece: &Piece| near.is_none_or(|(dir, chord)| piece.touches(dir, chord));
-        if self.reads {
+        if !self.reading.is_empty() {
             // Smooth ground is a mean of the ground of several leaves: all edits count as if they were at one place.
             let mut pieces = Vec::new();
-            self.ground.each_leaf(near, &mut |leaf| pieces.extend_from_slice(leaf));
+            self.index(Subject::Ground).each_leaf(near, &mut |leaf| pieces.extend_from_slice(leaf));
             pieces.sort_unstable_by_key(|number| self.roster.rank(*number));
             pieces.dedup();
             return index::range_of(&pieces, &self.roster, is_near).of((lo, hi));
         }
         let mut range = Widening::default();
-        self.ground.each_leaf(near, &mut |pieces| range = range.or(index::range_of(pieces, &self.roster, is_near)));
+        self.index(Subject::Ground)
+            .each_leaf(near, &mut |pieces| range = range.or(index::range_of(pieces, &self.roster, is_near)));
         range.of((lo, hi))
     }
 }

@@ -16,7 +16,7 @@ const LEAST_POINTS: usize = 8;
 #[derive(Clone, Debug)]
 struct Group {
     slot: u32,
-    /// Of the list of arcs.
+    /// Range of its arcs in the list of all.
     arcs: Range<u32>,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Hit {
 pub(super) struct Touch<'a> {
     pub(super) slot: u32,
     pub(super) edit: &'a CompiledEdit,
-    /// Those of its arcs that may act, by their places.
+    /// Places of the arcs that may act, among those of the edit.
     pub(super) arcs: &'a [u32],
     /// The points within its reach; at least one.
     pub(super) hits: &'a [Hit],

@@ -27,7 +27,7 @@ pub(super) struct Search {
     x: Vec<f64>,
     y: Vec<f64>,
     z: Vec<f64>,
-    /// Of the nearest arc: its order by distance, and its place among the arcs of the edit.
+    /// Order by distance of the nearest arc, and its place among the arcs of the edit.
     order: Vec<f64>,
     place: Vec<u32>,
 }

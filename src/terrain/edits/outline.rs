@@ -23,7 +23,7 @@ pub(super) struct Noise {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sampled {
     pub(super) value: f64,
-    /// Of each octave: size of its cells as an angle, gradient by the direction.
+    /// Size of the cells as an angle and gradient by the direction, for each octave.
     octaves: [(f64, DVec3); OCTAVES],
 }
 

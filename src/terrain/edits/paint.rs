@@ -2,10 +2,15 @@
 //! has in the biome table. Painted clouds: strokes that change the log-odds of their cover. Paint of the structure is
 //! in `structural`.
 
+use super::Subject;
+use super::index::Hash;
 use super::life::PopulationId;
 use super::mask::MaskId;
 use super::structural::StructurePaint;
-use crate::planet::{Biomes, Planet, Table, TableRows};
+use crate::planet::{Biomes, Key, Planet, Table, TableRows};
+
+/// Log-odds by which a full stroke changes the cover of clouds: all but overcast from a sky that is all but clear.
+pub(super) const CLOUD_ODDS: f64 = 10.0;
 
 /// What paint makes of a number of the climate: of `x` at sea level and `less` by which it falls up to the surface it
 /// makes `keep * x + add + (at_surface - 1) * less` at the surface.
@@ -102,20 +107,43 @@ pub(super) enum Paint {
         size: f64,
         turns_rad: [f64; 2],
     },
-    Structure(StructurePaint),
+    /// Amount of uplift in m, of hardness, of rain in mm.
+    Structure(StructurePaint, f64),
     /// The course of a river of the structure.
     Course,
 }
 
 impl Paint {
-    /// Whether it changes the climate of the ground.
-    pub(super) fn is_climate(&self) -> bool {
-        matches!(self, Self::Moisture { .. } | Self::Temperature { .. } | Self::Biome { .. })
+    /// Adds the paint to a key, by the number of its kind. Files of world maps hold keys of masks and of the structure.
+    pub(super) fn hash(&self, hash: &mut Hash) {
+        let (number, name, numbers) = match *self {
+            Self::Moisture { value, sets } => (20, None, [value, f64::from(u8::from(sets)), 0.0]),
+            Self::Temperature { value_c, sets } => (21, None, [value_c, f64::from(u8::from(sets)), 0.0]),
+            Self::Biome { key, strength } => (22, None, [strength, f64::from(u32::from(key)), 0.0]),
+            Self::Clouds { odds } => (23, None, [odds, 0.0, 0.0]),
+            Self::Structure(kind, amount) => (24 + kind as u64, None, [amount, 0.0, 0.0]),
+            Self::Course => (27, None, [0.0; 3]),
+            Self::Mask { mask: MaskId(name), amount } => (28, Some(name), [amount, 0.0, 0.0]),
+            Self::Life { population, density } => (29, population.map(|of| of.0), [density, 0.0, 0.0]),
+            Self::Object { population, size, turns_rad: [turn_rad, random_rad] } => {
+                (30, population.map(|of| of.0), [size, turn_rad, random_rad])
+            }
+        };
+        name.into_iter().flat_map(Key::words).for_each(|word| hash.add(word));
+        hash.add(number);
+        numbers.into_iter().chain([0.0]).for_each(|number| hash.add_f64(number));
     }
 
-    /// Whether it changes where layers act.
-    pub(super) fn is_mask(&self) -> bool {
-        matches!(self, Self::Mask { .. })
+    /// The subject that it changes. None for the course of a river.
+    pub(super) fn subject(&self) -> Option<Subject> {
+        match self {
+            Self::Moisture { .. } | Self::Temperature { .. } | Self::Biome { .. } => Some(Subject::Climate),
+            Self::Clouds { .. } => Some(Subject::Clouds),
+            Self::Mask { .. } => Some(Subject::Masks),
+            Self::Life { .. } | Self::Object { .. } => Some(Subject::Life),
+            Self::Structure(..) => Some(Subject::Structure),
+            Self::Course => None,
+        }
     }
 
     /// Paints the climate with a weight.
@@ -134,8 +162,7 @@ impl Paint {
                     painted.temperature.set(temperature_c, weight * strength);
                 }
             }
-            Self::Clouds { .. } | Self::Mask { .. } | Self::Life { .. } | Self::Object { .. } => {}
-            Self::Structure(_) | Self::Course => {}
+            _ => {}
         }
     }
 }
@@ -151,8 +178,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Those of a planet for these biomes, whose keys are in order. The earlier ones serve where the table is the
-    /// same.
+    /// Climates of these biomes of a planet. Their keys are in order. Equal tables share the earlier climates.
     pub(super) fn next(&self, planet: &Planet, keys: Vec<char>) -> Self {
         let biomes = &planet.biomes;
         let by_temperature = biomes.rows == TableRows::Temperature;

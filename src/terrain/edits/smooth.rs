@@ -2,7 +2,7 @@
 //! finer than the lattice, is the same at every level of detail, and knows neither poles nor the edges of the cube.
 //! The height at a node is that of the ground under its direction, as the earlier edits left it.
 
-use super::memory::{Known, Node};
+use super::memory::{Known, Node, Nodes};
 use glam::DVec3;
 
 /// Nodes for each size of what is smoothed away.
@@ -11,6 +11,7 @@ const NODES: f64 = 2.0;
 const WIDEST: f64 = 0.3;
 /// Distance within which smooth ground depends on the ground, in nodes; more than the half diagonal of 3 by 3 by 3.
 const REACH: f64 = 3.0;
+
 /// A lattice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lattice {
@@ -51,12 +52,12 @@ impl Lattice {
         DVec3::from_array(node.map(|x| x as f64)).normalize_or(DVec3::Z)
     }
 
-    /// Calls `found` with the nodes around a direction.
-    pub(super) fn each_node(&self, dir: DVec3, mut found: impl FnMut(Node)) {
+    /// Adds the nodes around a direction.
+    pub(super) fn ask(&self, dir: DVec3, nodes: &mut Nodes) {
         let [x, y, z] = self.around(dir).first;
         for k in 0..3 {
             for j in 0..3 {
-                (0..3).for_each(|i| found([x + i, y + j, z + k]));
+                nodes.extend((0..3).map(|i| [x + i, y + j, z + k]));
             }
         }
     }
@@ -88,11 +89,9 @@ mod tests {
     fn smooth_ground_keeps_slopes_and_has_the_gradient_of_its_heights() {
         let lattice = Lattice::new(0.02);
         let fill = |dir: DVec3, ground: &dyn Fn(DVec3) -> f64| {
-            let mut known = Known::default();
-            lattice.each_node(dir, |node| {
-                known.insert(node, ground(lattice.dir(node)));
-            });
-            known
+            let mut nodes = Nodes::default();
+            lattice.ask(dir, &mut nodes);
+            nodes.into_iter().map(|node| (node, ground(lattice.dir(node)))).collect::<Known<f64>>()
         };
         let dir = DVec3::new(0.3, -0.5, 0.7).normalize();
         let slope = |dir: DVec3| 1000.0 * dir.x - 300.0 * dir.z;

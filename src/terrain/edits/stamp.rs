@@ -14,7 +14,7 @@ pub(super) struct Stamp {
     picture: sync::Arc<Picture>,
     /// Value that leaves the ground as it is.
     level: f64,
-    /// Of each copy: the directions to the right and up in the picture.
+    /// Directions to the right and up in the picture, for each copy.
     axes: Vec<[DVec3; 2]>,
 }
 
@@ -44,11 +44,6 @@ impl Stamp {
             [east * cos - north * sin, north * cos + east * sin]
         };
         Some(Self { picture, level: stamp.level, axes: places.iter().map(axes).collect() })
-    }
-
-    /// Numbers that tell it from others.
-    pub(super) fn content(&self) -> [u64; 2] {
-        [self.picture.hash(), self.level.to_bits()]
     }
 
     /// The right and up directions of a copy.

@@ -1,11 +1,11 @@
 //! Edits that change what a structure is solved from: paint of uplift, of rock and of rain, and courses of rivers.
 
-use super::Edits;
-use super::compiled::CompiledEdit;
-use super::near::{Hit, Near, Touch};
+use super::near::Near;
+use super::paint::Paint;
 use super::roster::Roster;
+use super::{Edits, Subject};
+use crate::planet::Tool;
 use crate::planet::edits::{EditPoint, RiverCourse};
-use crate::planet::{Key, Tool};
 use crate::world::{DrawnCourse, Sculpted};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -15,22 +15,15 @@ const MOST_WANDER_RAD: f64 = 0.5;
 /// Points painted at a time.
 const CHUNK: usize = 4096;
 
-/// Paint of the structure.
+/// Paint of the structure, in the order of its keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum StructurePaint {
-    Uplift { uplift_m: f64 },
-    Rock { hardness: f64 },
-    Rain { rain_mm: f64 },
+    Uplift,
+    Rock,
+    Rain,
 }
 
 impl Edits {
-    /// The key of all edits of the structure. None if there is none.
-    pub(crate) fn structure_key(&self) -> Option<Key> {
-        let is_none = self.structural.is_empty() && self.courses.is_empty();
-        let key = || Key::of(&(self.structural.key_of_all(), &self.courses));
-        (!is_none).then(|| Self::with_masks(key(), self.masked.structure, || self.mask_key()))
-    }
-
     /// Rivers whose courses are drawn by hand, in the order of the edits.
     pub(crate) fn courses(&self) -> &[DrawnCourse] {
         &self.courses
@@ -38,7 +31,7 @@ impl Edits {
 
     /// Paint of the structure at points. None if there is none anywhere.
     pub(crate) fn sculpted(&self, dirs: &[DVec3]) -> Option<Sculpted> {
-        if self.structural.is_empty() {
+        if self.index(Subject::Structure).is_empty() {
             return None;
         }
         let mut sculpted = Sculpted::none(dirs.len());
@@ -46,19 +39,21 @@ impl Edits {
         let chunks = uplift_m.par_chunks_mut(CHUNK).zip(hardness.par_chunks_mut(CHUNK));
         let chunks = chunks.zip(rain_mm.par_chunks_mut(CHUNK)).zip(dirs.par_chunks(CHUNK));
         chunks.for_each(|(((uplift_m, hardness), rain_mm), dirs)| {
-            let all = |_: u32, _: &CompiledEdit| true;
-            Near::default().each_touch(&self.structural, &self.roster, dirs, all, |Touch { edit, hits, .. }| {
-                let Some(paint) = edit.structure_paint() else { return };
-                let shares = self.shares(edit, hits.iter().map(|hit| dirs[hit.point]), &[]);
-                for (own, Hit { point: i, nearest }) in hits.iter().enumerate() {
-                    let (i, weight) = (*i, edit.weight(dirs[*i], nearest) * shares.of(own));
-                    match paint {
-                        StructurePaint::Uplift { uplift_m: by_m } => uplift_m[i] += by_m * weight,
-                        StructurePaint::Rock { hardness: by } => hardness[i] += by * weight,
-                        StructurePaint::Rain { rain_mm: by_mm } => rain_mm[i] += by_mm * weight,
-                    }
-                }
-            });
+            self.each_weight(
+                Subject::Structure,
+                dirs,
+                &mut Near::default(),
+                |_| true,
+                |i, edit, weight, share| {
+                    let Some(Paint::Structure(kind, amount)) = edit.paint() else { return };
+                    let quantity = match kind {
+                        StructurePaint::Uplift => &mut uplift_m[i],
+                        StructurePaint::Rock => &mut hardness[i],
+                        StructurePaint::Rain => &mut rain_mm[i],
+                    };
+                    *quantity += amount * (weight * share);
+                },
+            );
         });
         Some(sculpted)
     }

@@ -2,7 +2,7 @@
 
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet::Key;
-use crate::terrain::edits::{Edits, MaskId, chord_of};
+use crate::terrain::edits::{Edits, MaskId, Subject, chord_of};
 use glam::DVec3;
 use std::fmt;
 use std::sync::{Arc, Weak};
@@ -18,7 +18,11 @@ pub(crate) struct Painted {
 
 impl Painted {
     pub(super) fn new(mask: MaskId, edits: Option<&Arc<Edits>>) -> Self {
-        Self { mask, edits: edits.map(Arc::downgrade).unwrap_or_default(), key: edits.and_then(|e| e.mask_key()) }
+        Self {
+            mask,
+            edits: edits.map(Arc::downgrade).unwrap_or_default(),
+            key: edits.and_then(|e| e.key(Subject::Masks)),
+        }
     }
 
     /// The key of the strokes of all masks. None if there are none.
