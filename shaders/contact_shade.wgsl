@@ -11,7 +11,7 @@ const CONTACT_FAR_M: vec2f = vec2f(40.0, 80.0);
 const CONTACT_TAPS: i32 = 14;
 const CONTACT_TURNS: f32 = 5.0;
 // Strength of the shade, and the most of the light that it takes: some comes from the sun past what stands there.
-const CONTACT_STRENGTH: f32 = 1.0;
+const CONTACT_STRENGTH: f32 = 0.9;
 const CONTACT_MOST: f32 = 0.7;
 // Height over the surface below which others do not count, as a share of the distance to the eye.
 const CONTACT_BIAS: f32 = 0.002;
