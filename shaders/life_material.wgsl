@@ -42,7 +42,7 @@ struct ObjectMaterial {
 
 const PLAIN: ObjectMaterial = ObjectMaterial(vec3f(1.0), 0.0, vec3f(0.0), 0.0);
 // Means of `plates`, of cracks, and of the darkness at the edge of a leaf where it is not cut out: by sampling.
-const PLATES_MEAN: f32 = 0.54;
+const PLATES_MEAN: f32 = 0.55;
 const CRACKS_MEAN: f32 = 0.14;
 const EDGE_MEAN: f32 = 0.05;
 
@@ -58,6 +58,26 @@ fn lattice_noise(p: vec3f) -> f32 {
         rows[i] = mix(lattice_value(at), lattice_value(at + vec3i(1, 0, 0)), f.x);
     }
     return mix(mix(rows[0], rows[1], f.y), mix(rows[2], rows[3], f.y), f.z);
+}
+
+// The cell about a point, one for each cube of a lattice of length 1, that a place lies in.
+struct NearestCell {
+    random: vec3f,
+    // Square of the distance to the point
+    distance2: f32,
+}
+
+fn nearest_cell(q: vec3f) -> NearestCell {
+    let first = floor(q - 0.5);
+    var found = NearestCell(vec3f(0.5), 9.0);
+    for (var i = 0; i < 8; i++) {
+        let cell = first + vec3f(f32(i & 1), f32((i >> 1u) & 1), f32(i >> 2u));
+        let random = unit_from_hash(hash3(vec3u(vec3i(cell))));
+        let away = q - cell - 0.25 - 0.5 * random;
+        let distance2 = dot(away, away);
+        if distance2 < found.distance2 { found = NearestCell(random, distance2); }
+    }
+    return found;
 }
 
 // How well a pattern of a period is seen at a width of the pixel.
@@ -106,23 +126,6 @@ fn bark(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
     return out;
 }
 
-// A random number of the cell about a point of a lattice of length 1 that a place lies in.
-fn cell_random(q: vec3f) -> vec3f {
-    let first = floor(q - 0.5);
-    var nearest = 9.0;
-    var found = vec3f(0.5);
-    for (var i = 0; i < 8; i++) {
-        let cell = first + vec3f(f32(i & 1), f32((i >> 1u) & 1), f32(i >> 2u));
-        let random = unit_from_hash(hash3(vec3u(vec3i(cell))));
-        let away = q - cell - 0.25 - 0.5 * random;
-        if dot(away, away) < nearest {
-            nearest = dot(away, away);
-            found = random;
-        }
-    }
-    return found;
-}
-
 fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     var out = PLAIN;
     var shade = 1.0;
@@ -142,7 +145,7 @@ fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
         let clear = clear_at(width_m, pixel_m);
         if clear <= 0.0 { break; }
         let bend = 0.3 * (lattice_noise(p_m / (0.7 * width_m) + 3.0) - 0.5);
-        out.tilt += clear * FACE_TILTS[i] * (cell_random(p_m / width_m + bend) - 0.5);
+        out.tilt += clear * FACE_TILTS[i] * (nearest_cell(p_m / width_m + bend).random - 0.5);
     }
     // Lichen and weather stain the stone.
     let stain = lattice_noise(p_m / (0.35 * max(size_m, 0.6)) + 5.0) - 0.5;
@@ -152,20 +155,9 @@ fn rock(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
 
 // Leaves of one width: cells about points, one for each leaf.
 fn leaves_of(width_m: f32, p_m: vec3f) -> ObjectMaterial {
-    let q = p_m / width_m;
-    let first = floor(q - 0.5);
-    var nearest = 9.0;
-    var found = vec3f(0.5);
-    for (var i = 0; i < 8; i++) {
-        let cell = first + vec3f(f32(i & 1), f32((i >> 1u) & 1), f32(i >> 2u));
-        let random = unit_from_hash(hash3(vec3u(vec3i(cell))));
-        let away = q - cell - 0.25 - 0.5 * random;
-        let distance = dot(away, away);
-        if distance < nearest {
-            nearest = distance;
-            found = random;
-        }
-    }
+    let cell = nearest_cell(p_m / width_m);
+    let found = cell.random;
+    let nearest = cell.distance2;
     let edge = smoothstep(0.10, 0.45, nearest);
     let tint = 1.0 + LEAF_TINTS * (found.x - 0.5) + 0.25 * (EDGE_MEAN - edge);
     return ObjectMaterial(tint, 0.0, found - 0.5, smoothstep(0.10, 0.30, nearest));

@@ -94,7 +94,9 @@ fn clumpings_body(dirs: &[DVec3], per_clump: f64, clumping: f64, seed: u32, shar
         *share = (1.0 + clumping * (2.0 * noise).clamp(-1.0, 1.0)) / (1.0 + clumping);
     }
 }
-for_each_simd!(fn clumpings(dirs: &[DVec3], per_clump: f64, clumping: f64, seed: u32, shares: &mut [f64]) = clumpings_body);
+for_each_simd!(fn clumpings(
+    dirs: &[DVec3], per_clump: f64, clumping: f64, seed: u32, shares: &mut [f64]
+) = clumpings_body);
 
 /// 1 within a range, 0 from `soft` outside its ends on.
 fn between(x: f64, from: f64, to: f64, soft: f64) -> f64 {

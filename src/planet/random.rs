@@ -221,7 +221,7 @@ fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
         Kind::Cold => dice.between(0.3, 0.8),
         _ => dice.between(0.5, 0.95),
     };
-    // Haze over that of the default air, which is as clear as the Earth's over an ocean far from land.
+    // A factor on the haze of the default air, which is clearer than any on the Earth.
     let dust = if kind == Kind::Temperate { dice.between(2.0, 9.0) } else { dice.between(2.0, 11.0) };
     // Red and violet skies were many, and all their planets looked alike: blue stays the strongest.
     let tint = dice.color([0.75, 0.85, 0.95], [1.05, 1.2, 1.1]);

@@ -134,17 +134,21 @@ fn hazy_airs_are_nearly_as_bright_as_by_path_tracing() {
     }
 }
 
-fn shipped_air(file: &str) -> Air {
-    let preset = shipped::ALL.iter().find(|preset| preset.file == file).unwrap();
-    Air::try_new(&preset.load().unwrap()).unwrap()
+fn shipped_planet(file: &str) -> Planet {
+    shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap()
 }
 
-/// The air of Alder with as little haze as over an ocean far from land.
+fn shipped_air(file: &str) -> Air {
+    Air::try_new(&shipped_planet(file)).unwrap()
+}
+
+/// The air of Alder with the little haze of the default air.
 fn clear_air() -> Air {
-    let mut planet = shipped::ALL.iter().find(|preset| preset.file == "alder.ron").unwrap().load().unwrap();
-    let air = planet.atmosphere.as_mut().unwrap();
-    (air.mie_scattering_per_km, air.mie_absorption_per_km) = ([0.003996; 3], [0.000444; 3]);
-    Air::try_new(&planet).unwrap()
+    let planet = shipped_planet("alder.ron");
+    let Atmosphere { mie_scattering_per_km, mie_absorption_per_km, .. } = Atmosphere::default();
+    let alder = planet.atmosphere.clone().unwrap();
+    let air = Atmosphere { mie_scattering_per_km, mie_absorption_per_km, ..alder };
+    Air::try_new(&Planet { atmosphere: Some(air), ..planet }).unwrap()
 }
 
 /// Dust scatters forward, and its light comes both from around the sun and from along the horizon: moments of the light
