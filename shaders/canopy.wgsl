@@ -102,7 +102,7 @@ const GROUPS: f32 = 0.8;
 
 // Adds the layers of a biome, the highest first. Single crowns are those of the layer that covers most.
 fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, place: CanopyPlace) {
-    let count = i32(biome_param(id, 5).w);
+    let count = i32(biome_param(id, 6).w);
     var end = select(0, (*canopy).ends.x, number == 1);
     var densities = array<f32, CANOPY_LAYERS>();
     var most = 0;

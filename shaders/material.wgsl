@@ -44,6 +44,8 @@ struct Material {
     shares: vec2f,
     // Factor of the pattern on the albedo
     tint: vec3f,
+    // Height of small bumps as a share of those of bare rock
+    bumps: f32,
 }
 
 fn biome_at(cell: vec2i) -> i32 {
@@ -132,6 +134,10 @@ struct Mixture {
     weights: vec2f,
     first_color: vec3f,
     second_color: vec3f,
+    // Share of the patches of the two strongest biomes
+    patches: vec2f,
+    // Height of small bumps as a share of those of bare rock
+    bumps: f32,
 }
 
 fn patch_share(tile_m: f32, patches: f32, site: Site) -> f32 {
@@ -154,10 +160,12 @@ fn add_biome(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) 
     let plain = biome_param(id, 0);
     let patches = biome_param(id, 1);
     let surface = biome_param(id, 2);
-    let color = mix(plain.rgb, patches.rgb, patch_share(surface.z, patches.w, site)) * (1.0 + site.variation * plain.a);
+    let patched = patch_share(surface.z, patches.w, site);
+    let color = mix(plain.rgb, patches.rgb, patched) * (1.0 + site.variation * plain.a);
     (*mixture).albedo += weight * color;
     (*mixture).roughness += weight * surface.x;
     (*mixture).specular += weight * surface.y;
+    (*mixture).bumps += weight * surface.w;
     if id == (*mixture).ids.x {
         (*mixture).weights.x += weight;
     } else if id == (*mixture).ids.y {
@@ -167,10 +175,12 @@ fn add_biome(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) 
         (*mixture).weights = vec2f(weight, (*mixture).weights.x);
         (*mixture).second_color = (*mixture).first_color;
         (*mixture).first_color = color;
+        (*mixture).patches = vec2f(patched, (*mixture).patches.x);
     } else if weight > (*mixture).weights.y {
         (*mixture).ids.y = id;
         (*mixture).weights.y = weight;
         (*mixture).second_color = color;
+        (*mixture).patches.y = patched;
     }
 }
 
@@ -218,7 +228,7 @@ fn mixture_of(cells: Cells, steep: vec4f, cover: vec2f, site: Site) -> Mixture {
     for (var i = 1; i < 8; i++) {
         if ids[i] == ids[0] { weights[0] += weights[i]; weights[i] = 0.0; }
     }
-    var mixture = Mixture(vec3f(0.0), 0.0, 0.0, vec2i(-1), vec2f(0.0), vec3f(0.0), vec3f(0.0));
+    var mixture = Mixture(vec3f(0.0), 0.0, 0.0, vec2i(-1), vec2f(0.0), vec3f(0.0), vec3f(0.0), vec2f(0.0), 0.0);
     for (var i = 0; i < i32(frame.mixture_entries); i++) {
         if weights[i] > 0.001 { add_biome(&mixture, ids[i], weights[i], site); }
     }
@@ -259,6 +269,39 @@ fn mixture_at(site: Site) -> Mixture {
     return sum;
 }
 
+// Patterns of the two strongest biomes; `share`: share of the second. Each is that of the biome or of its patches, and
+// both where patches end. Low quality draws the stronger of all.
+fn patterns_of(mixture: Mixture, share: f32, seen: Seen) -> array<Pattern, 2> {
+    let is_low = frame.pattern_quality == 0.0;
+    let strongest = select(0, 1, share > 0.5);
+    var out: array<Pattern, 2>;
+    out[0] = no_pattern();
+    out[1] = no_pattern();
+    for (var i = 0; i < 4; i++) {
+        let biome = i >> 1u;
+        if select(biome == 1 && share <= 0.01, biome != strongest, is_low) { continue; }
+        let layers = pattern_layers(mixture.ids[biome]);
+        let patches = mixture.patches[biome];
+        let is_patch = (i & 1) == 1;
+        // Where both are the same there is one.
+        let least = select(0.02, 0.5, is_low);
+        let own = layers.x == layers.y || patches < 1.0 - least;
+        if select(!own, layers.x == layers.y || (own && patches <= least), is_patch) { continue; }
+        let pattern = pattern_of(mixture.ids[biome], layers[i & 1], seen);
+        if !is_patch || !own {
+            out[biome] = pattern;
+            continue;
+        }
+        // The rarer one shows where it is the higher.
+        if patches <= 0.5 {
+            out[biome] = mixed_pattern(out[biome], pattern, share_by_height(out[biome], pattern, patches));
+        } else {
+            out[biome] = mixed_pattern(pattern, out[biome], share_by_height(pattern, out[biome], 1.0 - patches));
+        }
+    }
+    return out;
+}
+
 // Material at a pixel. `rel_x`, `rel_y`: steps to the next pixel in metres. `n`, `up`: normals of the ground and of the
 // sphere.
 fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> Material {
@@ -266,15 +309,7 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     let both = mixture.weights.x + mixture.weights.y;
     let share = mixture.weights.y / max(both, 1e-6);
     let seen = Seen(site.rel_m, n, up, rel_x, rel_y, slant_length_m(site.slant));
-    // Low quality draws the pattern of the strongest biome only.
-    let strongest = select(0, 1, share > 0.5);
-    var patterns: array<Pattern, 2>;
-    patterns[0] = no_pattern();
-    patterns[1] = no_pattern();
-    for (var i = 0; i < 2; i++) {
-        let shown = select(i == strongest, i == 0 || share > 0.01, frame.pattern_quality > 0.0);
-        if shown { patterns[i] = pattern_of(mixture.ids[i], seen); }
-    }
+    let patterns = patterns_of(mixture, share, seen);
     let a = patterns[0];
     let b = patterns[1];
     var out: Material;
@@ -290,5 +325,6 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     out.biomes = mixture.ids;
     out.shares = mixture.weights;
     out.tint = mix(vec3f(1.0), mix(a.tint, b.tint, t), both);
+    out.bumps = mixture.bumps;
     return out;
 }

@@ -1,6 +1,6 @@
 // Patterns of the ground: a tiling texture for each kind, projected along three axes (triplanar), at two scales whose
 // periods never coincide, and advected downhill where the material flows. Layout of the texels:
-// src/render/material_maps.rs and src/render/biome_table.rs.
+// src/render/patterns/arrays.rs and src/render/biome_table.rs.
 #include "uniforms.wgsl"
 #include "luts.wgsl"
 #include "macro_variation.wgsl"
@@ -39,6 +39,11 @@ fn share_by_height(a: Pattern, b: Pattern, share: f32) -> f32 {
     let threshold = select(0.5 - share, 1.0 - sqrt(2.0 * share), patterns > 1.5);
     let edge = 0.10;
     return mix(smoothstep(threshold - edge, threshold + edge, b.height - a.height), share, max(a.far, b.far));
+}
+
+fn mixed_pattern(a: Pattern, b: Pattern, t: f32) -> Pattern {
+    return Pattern(mix(a.tint, b.tint, t), mix(a.height, b.height, t), mix(a.slope, b.slope, t),
+        mix(a.roughness, b.roughness, t), mix(a.glow, b.glow, t), mix(a.far, b.far, t), max(a.shown, b.shown));
 }
 
 // Rotation by the angle of the triangle with sides 3, 4 and 5: a pattern that repeats after 1024 m still does.
@@ -104,12 +109,45 @@ fn heat(seen: Seen, period_m: f32, glow: f32) -> f32 {
     return 2.0 * smoothstep(0.35, 1.65, sum);
 }
 
-// The pattern of a biome (a column of `biome_params`); -1 has none. All taps share one loop, because a software driver
-// takes minutes to compile the unrolled taps.
-fn pattern_of(id: i32, seen: Seen) -> Pattern {
+// Parts of the ground show a pattern with a shift of their own, so that no period is seen. Where two parts meet, both
+// shifts are mixed: the share of the second is 0 in most places.
+struct Shifts {
+    first: vec2f,
+    second: vec2f,
+    share: f32,
+}
+
+// Number of parts from the least to the greatest value of the noise, and periods of a pattern in a tile of that noise.
+const SHIFTS: f32 = 8.0;
+const SHIFT_PERIODS: f32 = 56.0;
+// Half the width of the seam between two parts, as a share of a part.
+const SHIFT_SEAM: f32 = 0.16;
+
+fn shift_of(part: f32) -> vec2f { return unit_from_hash(hash3(vec3u(u32(part) + 1u, 7u, 19u))).xy; }
+
+fn shifts_at(seen: Seen, period_m: f32) -> Shifts {
+    let tiles = max(round(1024.0 / (SHIFT_PERIODS * period_m)), 1.0);
+    let at = (body.eye_wrap_m + seen.rel_m) * (tiles / 1024.0);
+    let lod = max(log2(seen.footprint_m * tiles * (NOISE_TILE_SIDE / 1024.0)), 0.0);
+    let part = SHIFTS * textureSampleLevel(noise_tile, repeated, at.yzx, lod).g;
+    let whole = floor(part);
+    let share = smoothstep(0.5 - SHIFT_SEAM, 0.5 + SHIFT_SEAM, part - whole);
+    let next = shift_of(whole + 1.0);
+    if share >= 1.0 { return Shifts(next, next, 0.0); }
+    return Shifts(shift_of(whole), next, share);
+}
+
+// Texture layers of a biome (a column of `biome_params`): of its own pattern (x), and of that of its patches (y); -1
+// for none.
+fn pattern_layers(id: i32) -> vec2i {
+    if id < 0 { return vec2i(-1); }
+    return vec2i(textureLoad(biome_params, vec2i(id, 6), 0).xy);
+}
+
+// A layer as a biome shows it. All taps share one loop, because a software driver takes minutes to compile the unrolled
+// taps.
+fn pattern_of(id: i32, layer: i32, seen: Seen) -> Pattern {
     var out = no_pattern();
-    if id < 0 { return out; }
-    let layer = i32(textureLoad(biome_params, vec2i(id, 2), 0).w);
     let size = textureLoad(biome_params, vec2i(id, 3), 0);
     let glow = textureLoad(biome_params, vec2i(id, 4), 0);
     let lod = log2(seen.footprint_m * PATTERN_SIDE / size.x);
@@ -133,6 +171,10 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);
     let copies = axes * scales * steps;
     let taps = copies * select(1u, 2u, flows);
+    var shifts = Shifts(vec2f(0.0), vec2f(0.0), 0.0);
+    if !is_low && !flows { shifts = shifts_at(seen, size.x); }
+    // Two patterns in their mean have less contrast than one: the deviation from the mean is as much greater.
+    let contrast = inverseSqrt(1.0 - 2.0 * shifts.share * (1.0 - shifts.share));
     var tint = vec3f(0.0);
     var slope = vec3f(0.0);
     var coarse = vec3f(0.0);
@@ -159,8 +201,15 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
             period_m = glow.w;
         }
         let level = log2(max(wide_m, 1e-6) * PATTERN_SIDE / period_m);
-        let t = textureSampleLevel(material_tint, repeated, p / period_m, layer, level);
-        let s = textureSampleLevel(material_surface, repeated, p / period_m, layer, level);
+        let at = p / period_m;
+        var t = textureSampleLevel(material_tint, repeated, at + shifts.first, layer, level);
+        var s = textureSampleLevel(material_surface, repeated, at + shifts.first, layer, level);
+        if shifts.share > 0.0 {
+            let other_t = textureSampleLevel(material_tint, repeated, at + shifts.second, layer, level);
+            let other_s = textureSampleLevel(material_surface, repeated, at + shifts.second, layer, level);
+            t = 0.5 + contrast * (mix(t, other_t, shifts.share) - 0.5);
+            s = vec4f(0.5 + contrast * (mix(s.xyz, other_s.xyz, shifts.share) - 0.5), mix(s.w, other_s.w, shifts.share));
+        }
         var tilt = s.xy - 0.5;
         if is_fine { tilt = rotated_back(tilt); }
         let strength = weight * select(1.0, 0.5, is_fine);

@@ -173,11 +173,11 @@ fn climate_at(in: Ground, height_m: f32) -> Climate {
     return Climate(temperature_c, saturate1(in.level_climate.x + above_m * body.moisture_per_m), saturate1(row));
 }
 
-// Tilts a normal by the small bumps of the macro variation.
-fn bumped(n: vec3f, rel_m: vec3f, slant: Slant) -> vec3f {
+// Tilts a normal by the small bumps of the macro variation; `share`: their height as a share of those of bare rock.
+fn bumped(n: vec3f, rel_m: vec3f, slant: Slant, share: f32) -> vec3f {
     let tangent = normalize(cross(n, select(vec3f(0.0, 0.0, 1.0), vec3f(1.0, 0.0, 0.0), abs(n.z) > 0.7)));
     let other = cross(n, tangent);
-    let rise = bumps_at(rel_m, slant, array<vec3f, 2>(tangent, other));
+    let rise = share * bumps_at(rel_m, slant, array<vec3f, 2>(tangent, other));
     return normalize(n - rise.x * tangent - rise.y * other);
 }
 
@@ -412,7 +412,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     ground.albedo *= splashed(over_sea_m, pixel_ground.spread_m, variation);
     if GIANT {
         let deck = giant_tops(up, footprint_m * 0.001 / body.radius_km);
-        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0), vec2<i32>(-1), vec2f(0.0), vec3f(1.0));
+        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0), vec2<i32>(-1), vec2f(0.0), vec3f(1.0), 1.0);
     }
     let wet = pixel_ground.water.x;
     canopy_normal = n;
@@ -425,7 +425,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
         let albedo = canopy_albedo(canopy, ground.albedo);
         return Shaded(mix(albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);
     }
-    n = bumped(n, in.rel_m, slant);
+    n = bumped(n, in.rel_m, slant, ground.bumps);
     // Tilted ground has a larger area than the untilted ground below it. With the area included, bumps vary the light
     // but not its mean, so the ground is as bright from near as from far away, where bumps are too fine to be drawn.
     let tilt = ground.slope - n * dot(n, ground.slope);

@@ -17,24 +17,62 @@ choice! {
         None = "None",
         /// Blades in tufts.
         Grass = "Grass",
+        /// Bunches of dry grass on bare earth.
+        Steppe = "Steppe",
+        /// Cushions of moss.
+        Moss = "Moss",
         /// Fallen leaves and twigs, as under trees.
         Litter = "Litter",
-        /// Wind ripples and grains.
+        /// Fallen needles, twigs, cones and moss, as under conifers.
+        Needles = "Needles",
+        /// Crumbs and clods of earth.
+        Soil = "Soil",
+        /// Sand in ripples of the wind.
         Sand = "Sand",
+        /// Smooth sand with shells and pebbles.
+        Beach = "Beach sand",
         /// Pebbles of all sizes between finer grains.
         Gravel = "Gravel",
+        /// Round stones, as in the bed of a river.
+        Cobbles = "Cobbles",
+        /// Broken stones with flat faces.
+        Scree = "Scree",
+        /// Volcanic ash with stones that fell into it.
+        Ash = "Ash",
         /// Powder with small craters and crumbs, as on a world without air.
         Regolith = "Regolith",
         /// Fractured slabs with layers and lichen.
         Rock = "Rock",
-        /// Soft drifts with a wind crust.
-        Snow = "Snow",
-        /// Clear and cloudy patches with cracks.
-        Ice = "Ice",
-        /// Plates of dried mud with damp cracks.
-        Mud = "Mud",
+        /// Crystals of several colours in rounded sheets.
+        Granite = "Granite",
+        /// Tops of dark columns with bubbles.
+        Basalt = "Basalt",
+        /// Thin layers that lie across one another.
+        Sandstone = "Sandstone",
         /// A dark crust in plates with glowing cracks.
         Lava = "Lava",
+        /// Cold lava in folded lobes.
+        RopeLava = "Rope lava",
+        /// Cold lava in rubble full of holes.
+        Clinker = "Clinker",
+        /// Plates of dried mud with damp cracks.
+        Mud = "Mud",
+        /// Wet clay with puddles and runnels.
+        WetMud = "Wet mud",
+        /// Polygons of salt between ridges.
+        Salt = "Salt",
+        /// Powder snow with soft drifts.
+        Snow = "Snow",
+        /// Plates of hard snow, with powder between.
+        Crust = "Wind crust",
+        /// Ridges that the wind has carved into snow.
+        Sastrugi = "Sastrugi",
+        /// Old snow that the sun has melted into cups.
+        Firn = "Firn",
+        /// Clear and cloudy patches with cracks.
+        Ice = "Ice",
+        /// Clear blue ice with white cracks, bubbles and melted holes.
+        BlueIce = "Blue ice",
     }
 }
 
@@ -73,6 +111,8 @@ params! {
         specular: f64 = 0.2, "Specular", Unit::None, linear(0.0, 1.0), Stage::Material;
         /// Close-up pattern.
         detail: Detail = Detail::None, "Detail", Unit::None, Domain::Choice, Stage::Material;
+        /// Close-up pattern of the patches. With None they have that of the biome.
+        patch_detail: Detail = Detail::None, "Patch detail", Unit::None, Domain::Choice, Stage::Material;
         /// Period of the pattern.
         detail_m: f64 = 2.0, "Detail size", Unit::Metres, DETAIL_SIZE, Stage::Material;
         /// Strength of the pattern: 0 is an even surface.

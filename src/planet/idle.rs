@@ -157,8 +157,11 @@ fn biomes_idle(biomes: &Biomes, name: &str) -> Idle {
 
 fn biome_idle(biome: &Biome, name: &str) -> Idle {
     match name {
-        "patch_color" | "patch_m" => when(biome.patches == 0.0, "Patches is 0"),
-        "detail_m" | "detail_strength" => when(biome.detail == Detail::None, "The biome has no detail"),
+        "patch_color" | "patch_m" | "patch_detail" => when(biome.patches == 0.0, "Patches is 0"),
+        "detail_m" | "detail_strength" => {
+            let has_patches = biome.patches > 0.0 && biome.patch_detail != Detail::None;
+            when(biome.detail == Detail::None && !has_patches, "The biome has no detail")
+        }
         "steep_key" | "steep_from_deg" | "steep_to_deg" => {
             when(biome.steep != Steep::Biome, "No other biome replaces it on steep ground")
         }

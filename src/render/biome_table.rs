@@ -1,8 +1,8 @@
 //! Biomes as two small textures for `material.wgsl`: the biome of each cell of the biome table (row 0 is the hottest or
 //! highest), and a column of parameters for each biome.
 
+use super::{gpu, patterns};
 use super::life::{CANOPY_ROWS, CanopyRows};
-use super::{gpu, material_kinds};
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
 use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 
@@ -13,7 +13,7 @@ pub(crate) const RULES: usize = MAX_BIOMES + 1;
 pub(crate) const SHOWN: usize = MAX_BIOMES + 2;
 const COLUMNS: usize = MAX_BIOMES + 3;
 /// Rows of a column without its canopy, four numbers each.
-const ROWS: usize = 6;
+const ROWS: usize = 7;
 /// First row of the canopy.
 pub(crate) const CANOPY: usize = ROWS;
 /// Row that says of a biome whether the shown population stands there, and in its own column whether it is known.
@@ -67,7 +67,8 @@ pub(crate) struct BiomeTexels {
 }
 
 impl BiomeTexels {
-    pub(crate) fn new(biomes: &Biomes, marked: Option<&MarkedCells>, canopies: &CanopyRows) -> Self {
+    /// `kinds`: kinds of pattern in the order of their texture layers.
+    pub(crate) fn new(biomes: &Biomes, kinds: &[Detail], marked: Option<&MarkedCells>, canopies: &CanopyRows) -> Self {
         let (columns, rows) = (biomes.table.columns().max(1), biomes.table.rows().len().max(1));
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
         let id = |(column, row)| {
@@ -81,9 +82,9 @@ impl BiomeTexels {
             }
         };
         for (column, biome) in biomes.palette.iter().take(MAX_BIOMES).enumerate() {
-            put(column, numbers(biome, biomes));
+            put(column, numbers(biome, biomes, kinds));
         }
-        put(ROCK, numbers(&shared_rock(biomes), biomes));
+        put(ROCK, numbers(&shared_rock(biomes), biomes, kinds));
         put(RULES, rules(biomes));
         for (column, biome) in biomes.palette.iter().take(MAX_BIOMES).enumerate() {
             let (count, rows) = canopies.of_biome(biome.key);
@@ -116,27 +117,26 @@ fn shared_rock(biomes: &Biomes) -> Biome {
     }
 }
 
-fn numbers(biome: &Biome, biomes: &Biomes) -> [[f64; 4]; ROWS] {
+fn numbers(biome: &Biome, biomes: &Biomes, kinds: &[Detail]) -> [[f64; 4]; ROWS] {
     let whole = |length: f64, parts: f64, size: f64| length / parts / (length / parts / size).round().max(1.0);
     let size_m = whole(WRAP_M, 1.0, biome.detail_m);
     let fine_m = whole(WRAP_M, TURN, FINE * size_m);
     let patch_m = whole(WRAP_FAR_M, 1.0, PATCHES_PER_TILE * biome.patch_m);
-    let layer = match biome.detail {
-        Detail::None => -1.0,
-        kind => material_kinds::layer(kind).map_or(-1.0, |layer| layer as f64),
-    };
+    let layer = |kind: Detail| kinds.iter().position(|known| *known == kind).map_or(-1.0, |layer| layer as f64);
+    let patch_detail = if biome.patch_detail == Detail::None { biome.detail } else { biome.patch_detail };
     let cosine = |degrees: f64| degrees.to_radians().cos();
-    let steep = biomes.steep_rule(biome).map_or([-1.0, 0.0, 0.0, 0.0], |rule| {
-        [rule.into.map_or(ROCK, |index| index) as f64, cosine(rule.from_deg), cosine(rule.to_deg), 0.0]
+    let [into, from, to] = biomes.steep_rule(biome).map_or([-1.0, 0.0, 0.0], |rule| {
+        [rule.into.map_or(ROCK, |index| index) as f64, cosine(rule.from_deg), cosine(rule.to_deg)]
     });
     let four = |[r, g, b]: [f64; 3], w: f64| [r, g, b, w];
     [
         four(biome.color, biome.variation),
         four(biome.patch_color, biome.patches),
-        [biome.roughness, biome.specular, patch_m, layer],
+        [biome.roughness, biome.specular, patch_m, patterns::bumps(biome.detail)],
         [size_m, biome.detail_strength, biome.flow_m_s, biome.glow],
         four(biome.glow_color, fine_m),
-        steep,
+        [into, from, to, 0.0],
+        [layer(biome.detail), layer(patch_detail), 0.0, 0.0],
     ]
 }
 

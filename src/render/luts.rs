@@ -1,4 +1,4 @@
-//! Textures that are reused from frame to frame. [`Patterns`]: noises and materials, one set for a device. [`Luts`]:
+//! Textures that are reused from frame to frame. [`SharedLuts`]: noises and patterns, one set for a device. [`Luts`]:
 //! the LUTs of the air, the cloud maps and the biome textures of a body; each is computed again when the content of
 //! its key has changed.
 //!
@@ -10,7 +10,7 @@ use super::border_tile;
 use super::cloud_map::{CloudFrame, CloudMaps};
 use super::gpu::{self, Slot};
 use super::life::CanopyRows;
-use super::material_maps::MaterialMaps;
+use super::patterns::{self, PatternArrays, PatternPool};
 use super::scene::Scene;
 use super::screen_pass::Shared;
 use super::shared::{GLOW_NODES, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SEEN_NODES, SKY_LUT_SIZE, TURNS_AT_ONCE};
@@ -86,31 +86,31 @@ pub struct LutRuns {
 }
 
 /// Textures shared by all bodies.
-pub(crate) struct Patterns {
+pub(crate) struct SharedLuts {
     /// The tiling noise of ground and clouds, and the noise of the border jitter.
     noise: [wgpu::TextureView; 2],
-    materials: MaterialMaps,
+    patterns: PatternPool,
     /// Layout of the bind group of a body's LUTs.
     pub(crate) layout: wgpu::BindGroupLayout,
 }
 
-impl Patterns {
+impl SharedLuts {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         use Slot::{Cube, CubeArray, Float2d, Float2dArray, Float3d, Unfiltered2d};
         let air = [Float2d, Float2dArray, Float2dArray];
         let rest = [CubeArray, Float3d, Unfiltered2d, Unfiltered2d, Float2dArray, Float2dArray, Float3d, Cube];
         Self {
             noise: [noise_tile::upload(device, queue), border_tile::upload(device, queue)],
-            materials: MaterialMaps::new(device, queue),
+            patterns: PatternPool::new(device, queue),
             layout: gpu::layout(device, "LUTs", &[&air[..], &rest].concat()),
         }
     }
 }
 
-impl Patterns {
+impl SharedLuts {
     /// Memory of all textures.
     pub(crate) fn resident_bytes(&self) -> u64 {
-        gpu::view_bytes(self.noise.iter().chain([&self.materials.tint, &self.materials.surface]))
+        gpu::view_bytes(&self.noise) + self.patterns.resident_bytes()
     }
 }
 
@@ -163,6 +163,7 @@ pub(crate) struct Luts {
     air: Vec<AirLut>,
     clouds: CloudMaps,
     biomes: BiomeTextures,
+    patterns: PatternArrays,
     /// The cube with the world map that a debug view shows, and what is in it.
     map_picture: wgpu::TextureView,
     shown_map: Option<(MapView, [Option<Key>; 2])>,
@@ -184,17 +185,19 @@ struct Groups {
 }
 
 impl Luts {
-    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, shared: &SharedLuts) -> Self {
         let air: Vec<_> = AIR_LUTS.iter().map(|lut| AirLut::new(device, lut)).collect();
         let clouds = CloudMaps::new(device);
-        let biome_texels = BiomeTexels::new(&Biomes::default(), None, &CanopyRows::default());
+        let biome_texels = BiomeTexels::new(&Biomes::default(), &[], None, &CanopyRows::default());
         let biomes = BiomeTextures::with(device, queue, &biome_texels);
+        let patterns = shared.patterns.with(device, queue, &[]);
         let map_picture = write_map(device, queue, &no_map());
-        let groups = Groups::new(device, patterns, &air, [&clouds.cubes, &map_picture], &biomes);
+        let groups = Groups::new(device, shared, &air, [&clouds.cubes, &map_picture], (&biomes, &patterns));
         Self {
             air,
             clouds,
             biomes,
+            patterns,
             map_picture,
             shown_map: None,
             groups,
@@ -229,7 +232,7 @@ impl Luts {
         &mut self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
-        (patterns, pipelines): (&Patterns, &LutPipelines),
+        (shared, pipelines): (&SharedLuts, &LutPipelines),
         (uniforms, sun_radius_rad): (&wgpu::BindGroup, f32),
         (revision, drafts): (&Revision, bool),
         (marked, canopies): (Option<&Arc<MarkedCells>>, CanopyRows),
@@ -237,9 +240,17 @@ impl Luts {
         let (planet, keys) = (revision.planet(), revision.keys());
         let biome_key = (keys.materials(), marked.cloned(), canopies);
         if self.biome_key.as_ref() != Some(&biome_key) {
-            let texels = BiomeTexels::new(&planet.biomes, marked.map(|marked| &**marked), &biome_key.2);
-            self.write_biomes(device, queue, patterns, texels);
+            let patterns = shared.patterns.with(device, queue, &patterns::kinds_of(&planet.biomes));
+            let marked = marked.map(|marked| &**marked);
+            let texels = BiomeTexels::new(&planet.biomes, patterns.kinds(), marked, &biome_key.2);
+            self.write_biomes(device, queue, shared, texels);
             self.biome_key = Some(biome_key);
+        }
+        // Another body may have added kinds: the arrays without them are dropped once nobody holds them.
+        let patterns = shared.patterns.with(device, queue, &[]);
+        if patterns != self.patterns {
+            self.patterns = patterns;
+            self.bind(device, shared);
         }
         if planet.atmosphere.is_some() {
             let sun = sun_radius_rad.to_bits();
@@ -283,7 +294,7 @@ impl Luts {
     pub(crate) fn show_map(
         &mut self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
-        patterns: &Patterns,
+        shared: &SharedLuts,
         view: MapView,
         terrain: &Terrain,
     ) {
@@ -293,16 +304,16 @@ impl Luts {
         }
         self.shown_map = shown;
         self.map_picture = write_map(device, queue, &terrain.map_picture(view).unwrap_or_else(no_map));
-        self.bind(device, patterns);
+        self.bind(device, shared);
     }
 
-    fn bind(&mut self, device: &wgpu::Device, patterns: &Patterns) {
+    fn bind(&mut self, device: &wgpu::Device, shared: &SharedLuts) {
         let cubes = [&self.clouds.cubes, &self.map_picture];
-        self.groups = Groups::new(device, patterns, &self.air, cubes, &self.biomes);
+        self.groups = Groups::new(device, shared, &self.air, cubes, (&self.biomes, &self.patterns));
     }
 
     /// Writes the biome textures if their texels have changed. Some edits, such as names, do not change texels.
-    fn write_biomes(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns, texels: BiomeTexels) {
+    fn write_biomes(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, shared: &SharedLuts, texels: BiomeTexels) {
         if texels == self.biome_texels {
             return;
         }
@@ -310,7 +321,7 @@ impl Luts {
             self.biomes.write(queue, &texels);
         } else {
             self.biomes = BiomeTextures::with(device, queue, &texels);
-            self.bind(device, patterns);
+            self.bind(device, shared);
         }
         self.biome_texels = texels;
         self.runs.biomes += 1;
@@ -358,18 +369,18 @@ fn write_map(device: &wgpu::Device, queue: &wgpu::Queue, picture: &MapPicture) -
 impl Groups {
     fn new(
         device: &wgpu::Device,
-        patterns: &Patterns,
+        shared: &SharedLuts,
         air: &[AirLut],
         [clouds, map_picture]: [&wgpu::TextureView; 2],
-        biomes: &BiomeTextures,
+        (biomes, patterns): (&BiomeTextures, &PatternArrays),
     ) -> Self {
-        let (noise, materials) = (&patterns.noise, &patterns.materials);
+        let noise = &shared.noise;
         let bind = |slots: [usize; 3]| {
             let air = slots.into_iter().map(|i| &air[i].all);
             let (ids, params) = (&biomes.ids, &biomes.params);
-            let rest = [clouds, &noise[0], ids, params, &materials.tint, &materials.surface, &noise[1], map_picture];
+            let rest = [clouds, &noise[0], ids, params, &patterns.tint, &patterns.surface, &noise[1], map_picture];
             let views = air.chain(rest).map(wgpu::BindingResource::TextureView);
-            gpu::group(device, "LUTs", &patterns.layout, views)
+            gpu::group(device, "LUTs", &shared.layout, views)
         };
         Self { all: bind([DEPTH, GLOW, SKY]), air: READ.map(|[scattered, other]| bind([DEPTH, scattered, other])) }
     }

@@ -16,8 +16,8 @@
 //!   scene
 //! - `caster`: things of a game that cast shadows
 //! - `photo`: pictures of any size, in tiles, of many samples, through a lens
-//! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps`
-//!   (of `material_kinds`, by `material_noise`)
+//! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, the tiles `noise_tile` and `border_tile`, and the `patterns` of
+//!   the ground
 //! - `uniform_groups`, `uniforms`, `shared`, `wgsl`: what Rust and WGSL share, from one source; [`shaders`]: includes,
 //!   checks, hot reload
 //! - `worlds`: the bodies of a system around a camera: places, lights, points
@@ -50,13 +50,11 @@ mod layer_pool;
 mod legend;
 mod life;
 mod luts;
-mod material_kinds;
-mod material_maps;
-mod material_noise;
 mod morph;
 mod nearness;
 mod noise_tile;
 mod passes;
+mod patterns;
 mod photo;
 mod pool;
 mod prepared;

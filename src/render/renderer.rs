@@ -6,7 +6,7 @@ use super::debug_view::DebugView;
 use super::ground_view::GroundView;
 use super::history::{CloudFrame, CloudHistory, Progress, Still};
 use super::life::{CanopyRows, Cascades, LifeModels, LifeView, PlantingBuffer, ShadowMap};
-use super::luts::{LutRuns, Luts, Patterns};
+use super::luts::{LutRuns, Luts, SharedLuts};
 use super::passes::Pipelines;
 use super::prepared::{Plan, PlannedBody, PreparedFrame};
 use super::scene::{Body, BodyId, Reuse, Scene, ViewId};
@@ -28,7 +28,7 @@ pub struct Renderer {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     shared: Arc<UniformGroups>,
-    pub(crate) patterns: Arc<Patterns>,
+    pub(crate) patterns: Arc<SharedLuts>,
     pub(crate) indices: Arc<Indices>,
     pub(crate) pipelines: Arc<Pipelines>,
     pub(crate) bodies: HashMap<BodyId, BodyResources>,
@@ -102,7 +102,7 @@ impl Renderer {
     /// [`RenderError::Shader`]: the driver rejects a shader.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, RenderError> {
         let shared = UniformGroups::new(device);
-        let patterns = Patterns::new(device, queue);
+        let patterns = SharedLuts::new(device, queue);
         let pipelines = Pipelines::new(device, Shared { uniforms: &shared.layout, luts: &patterns.layout })?;
         Ok(Self {
             device: device.clone(),
@@ -438,8 +438,8 @@ impl Renderer {
 }
 
 impl BodyResources {
-    fn new(device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns) -> Self {
-        let luts = Luts::new(device, queue, patterns);
+    fn new(device: &wgpu::Device, queue: &wgpu::Queue, shared: &SharedLuts) -> Self {
+        let luts = Luts::new(device, queue, shared);
         Self { tiles: BodyTiles::new(device), luts, models: LifeModels::default(), drawn_by: HashSet::new() }
     }
 

@@ -150,6 +150,76 @@ fn the_ground_before_the_feet_is_not_smeared() {
     assert!(low > 0.65 * medium && low < 1.6 * medium, "{low} at low, {medium} at medium quality");
 }
 
+/// Greatest correlation of a picture with itself, moved by 0.7 to 1.5 times `period_px` in any direction.
+fn repetition(picture: &[f64], width: usize, period_px: f64) -> f64 {
+    let height = picture.len() / width;
+    let mean = picture.iter().sum::<f64>() / picture.len() as f64;
+    let away: Vec<f64> = picture.iter().map(|light| light - mean).collect();
+    let variance = away.iter().map(|w| w * w).sum::<f64>() / away.len() as f64;
+    let reach = (1.5 * period_px) as usize;
+    let correlation = |x: usize, y: usize, mirrored: bool| {
+        let (columns, rows) = (width - x, height - y);
+        let pairs = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
+        let sum: f64 = pairs
+            .map(|(row, column)| {
+                let (a, b) = if mirrored { (column + x, column) } else { (column, column + x) };
+                away[row * width + a] * away[(row + y) * width + b]
+            })
+            .sum();
+        sum / (columns * rows) as f64 / variance
+    };
+    let places = (0..=reach).flat_map(|y| (0..=reach).map(move |x| (x, y)));
+    let around = places.filter(|(x, y)| (0.7..=1.5).contains(&((*x as f64).hypot(*y as f64) / period_px)));
+    around.map(|(x, y)| correlation(x, y, false).max(correlation(x, y, true))).fold(0.0, f64::max)
+}
+
+/// Gravel from above over a dozen periods: no part of it is seen again beside itself.
+#[test]
+fn patterns_do_not_repeat() {
+    let mut gpu = gpu();
+    let detail_m = 2.0;
+    let planet = Arc::new(ball(Biome { detail: Detail::Gravel, detail_m, ..grey(0.25) }));
+    let camera = camera(&planet, PLACE.0, PLACE.1, 14.0, 0.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let mut frame = frame(&surface, &planet, camera, (PLACE.0 + 20.0, PLACE.1 + 30.0));
+    frame.quality = Quality::Medium;
+    gpu.draw_only(&frame, 1);
+    let ([width, height], light) = gpu.renderer.radiance().unwrap();
+    let ground_m = 2.0 * 14.0 * (0.5 * camera.fov_y_rad).tan();
+    let picture: Vec<f64> = light.iter().map(|pixel| f64::from(pixel[1])).collect();
+    let found = repetition(&picture, width as usize, detail_m / ground_m * f64::from(height));
+    println!("repetition: {found:.3}");
+    assert!(found < 0.3, "{found}: the period of the pattern is seen");
+}
+
+/// Patches have a pattern of their own: gravel in patches on even ground.
+#[test]
+fn patches_have_their_own_pattern() {
+    let mut gpu = gpu();
+    let even = Biome { patches: 0.5, patch_color: [0.25; 3], patch_m: 2.0, ..grey(0.25) };
+    let mut rough_blocks = |patch_detail: Detail| {
+        let planet = Arc::new(ball(Biome { patch_detail, ..even.clone() }));
+        let camera = camera(&planet, PLACE.0, PLACE.1, 6.0, 0.0, -90.0);
+        let surface = surface(&planet, &camera);
+        let frame = frame(&surface, &planet, camera, (PLACE.0 + 20.0, PLACE.1 + 30.0));
+        gpu.draw_only(&frame, 1);
+        let ([width, height], light) = gpu.renderer.radiance().unwrap();
+        // Contrast of blocks of 12 x 12 pixels.
+        let contrast = |column: u32, row: u32| {
+            let inside = (0..144).map(|i| (12 * column + i % 12, 12 * row + i / 12));
+            let values: Vec<f64> = inside.map(|(x, y)| f64::from(light[(y * width + x) as usize][1])).collect();
+            let mean = values.iter().sum::<f64>() / 144.0;
+            (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / 144.0).sqrt() / mean
+        };
+        let blocks = (0..height / 12).flat_map(|row| (0..width / 12).map(move |column| (column, row)));
+        let rough = blocks.clone().filter(|(column, row)| contrast(*column, *row) > 0.04).count();
+        rough as f64 / blocks.count() as f64
+    };
+    let (without, with) = (rough_blocks(Detail::None), rough_blocks(Detail::Gravel));
+    println!("rough: {without:.3} without, {with:.3} with gravel in the patches");
+    assert!(without < 0.05 && with > 0.3 && with < 0.8, "{without} without, {with} with gravel in the patches");
+}
+
 /// Lava glows at night, and flowing lava moves.
 #[test]
 fn lava_glows_and_flows() {

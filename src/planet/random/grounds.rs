@@ -9,33 +9,57 @@ struct Ground {
     key: char,
     name: &'static str,
     color: [f64; 3],
-    /// Close-up pattern and its period.
-    detail: (Detail, f64),
+    /// Close-up pattern, that of its patches, and the period of both.
+    detail: (Detail, Detail, f64),
     below_c: f64,
     from_moisture: f64,
 }
 
 /// Ground that is found below a temperature and from a moisture.
-const fn ground(key: char, name: &'static str, color: [f64; 3], detail: (Detail, f64), fits: [f64; 2]) -> Ground {
+const fn ground(
+    key: char,
+    name: &'static str,
+    color: [f64; 3],
+    detail: (Detail, Detail, f64),
+    fits: [f64; 2],
+) -> Ground {
     Ground { key, name, color, detail, below_c: fits[0], from_moisture: fits[1] }
 }
 
 /// For worlds with weather. The coldest that fits wins; among those, the wettest.
 const LIVING: &[Ground] = &[
-    ground('i', "Ice", [0.78, 0.82, 0.87], (Detail::Ice, 6.0), [-14.0, 0.0]),
-    ground('b', "Blue ice", [0.36, 0.50, 0.62], (Detail::Ice, 6.0), [-14.0, 0.52]),
-    ground('s', "Snow", [0.70, 0.73, 0.76], (Detail::Snow, 4.0), [-6.0, 0.0]),
-    ground('t', "Tundra", [0.19, 0.18, 0.12], (Detail::Gravel, 2.0), [1.0, 0.0]),
-    ground('c', "Cold steppe", [0.21, 0.19, 0.11], (Detail::Grass, 1.5), [8.0, 0.0]),
-    ground('k', "Taiga", [0.055, 0.09, 0.045], (Detail::Litter, 1.2), [8.0, 0.35]),
-    ground('g', "Grassland", [0.15, 0.18, 0.065], (Detail::Grass, 1.5), [20.0, 0.25]),
-    ground('x', "Dry scrub", [0.27, 0.22, 0.12], (Detail::Gravel, 1.6), [20.0, 0.0]),
-    ground('f', "Forest", [0.045, 0.085, 0.03], (Detail::Litter, 1.2), [20.0, 0.5]),
-    ground('d', "Desert", [0.45, 0.32, 0.17], (Detail::Sand, 2.5), [500.0, 0.0]),
-    ground('a', "Savanna", [0.24, 0.2, 0.075], (Detail::Grass, 1.8), [500.0, 0.3]),
-    ground('w', "Woodland", [0.09, 0.12, 0.04], (Detail::Grass, 1.5), [500.0, 0.5]),
-    ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, 1.2), [500.0, 0.72]),
+    ground('i', "Ice", [0.78, 0.82, 0.87], (Detail::Ice, Detail::Snow, 6.0), [-14.0, 0.0]),
+    ground('b', "Blue ice", [0.36, 0.50, 0.62], (Detail::BlueIce, Detail::Ice, 6.0), [-14.0, 0.52]),
+    ground('s', "Snow", [0.70, 0.73, 0.76], (Detail::Snow, Detail::Crust, 4.5), [-6.0, 0.0]),
+    ground('t', "Tundra", [0.19, 0.18, 0.12], (Detail::Gravel, Detail::Moss, 2.0), [1.0, 0.0]),
+    ground('c', "Cold steppe", [0.21, 0.19, 0.11], (Detail::Steppe, Detail::Grass, 1.8), [8.0, 0.0]),
+    ground('k', "Taiga", [0.055, 0.09, 0.045], (Detail::Needles, Detail::Moss, 1.4), [8.0, 0.35]),
+    ground('g', "Grassland", [0.15, 0.18, 0.065], (Detail::Grass, Detail::Steppe, 1.6), [20.0, 0.25]),
+    ground('x', "Dry scrub", [0.27, 0.22, 0.12], (Detail::Steppe, Detail::Gravel, 1.8), [20.0, 0.0]),
+    ground('f', "Forest", [0.045, 0.085, 0.03], (Detail::Litter, Detail::Moss, 1.4), [20.0, 0.5]),
+    ground('d', "Desert", [0.45, 0.32, 0.17], (Detail::Sand, Detail::Gravel, 2.5), [500.0, 0.0]),
+    ground('a', "Savanna", [0.24, 0.2, 0.075], (Detail::Steppe, Detail::Grass, 1.8), [500.0, 0.3]),
+    ground('w', "Woodland", [0.09, 0.12, 0.04], (Detail::Grass, Detail::Litter, 1.6), [500.0, 0.5]),
+    ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, Detail::Moss, 1.4), [500.0, 0.72]),
 ];
+
+/// A biome with patches that differ from the rest by their pattern, and a little by their brightness.
+fn patched(color: [f64; 3], patch_detail: Detail) -> Biome {
+    const SHADE: f64 = 0.9;
+    Biome {
+        patches: 0.35,
+        patch_color: color.map(|c| three_digits(SHADE * c)),
+        patch_m: 25.0,
+        patch_detail,
+        ..Biome::default()
+    }
+}
+
+/// The pattern that takes a pattern's place on a world without air, which has no ripples and no crumbs of earth.
+fn without_wind(kind: Kind, detail: Detail) -> Detail {
+    let is_dust = matches!(detail, Detail::Sand | Detail::Soil);
+    if kind == Kind::Bare && is_dust { Detail::Regolith } else { detail }
+}
 
 /// Keys of vegetated ground.
 const FOLIAGE: [char; 8] = ['k', 'g', 'f', 'a', 'w', 'j', 'c', 'x'];
@@ -126,15 +150,18 @@ fn living(climate: &Climate, dice: &mut Dice) -> Biomes {
     let palette = LIVING
         .iter()
         .filter(|g| used.contains(&g.key))
-        .map(|g| Biome {
-            key: g.key,
-            name: g.name.to_owned(),
-            color: tinted(g).map(|c: f64| three_digits((c * dice.between(0.88, 1.12)).min(1.0))),
-            variation: dice.rounded(0.15, 0.4),
-            roughness: if matches!(g.key, 'i' | 's' | 'b') { 0.6 } else { 0.9 },
-            detail: g.detail.0,
-            detail_m: g.detail.1,
-            ..Biome::default()
+        .map(|g| {
+            let color = tinted(g).map(|c: f64| three_digits((c * dice.between(0.88, 1.12)).min(1.0)));
+            Biome {
+                key: g.key,
+                name: g.name.to_owned(),
+                color,
+                variation: dice.rounded(0.15, 0.4),
+                roughness: if matches!(g.key, 'i' | 's' | 'b') { 0.6 } else { 0.9 },
+                detail: g.detail.0,
+                detail_m: g.detail.2,
+                ..patched(color, g.detail.1)
+            }
         })
         .collect();
     Biomes { coldest_c, hottest_c, palette, table, cliff_detail: Detail::Rock, ..Biomes::default() }
@@ -144,12 +171,12 @@ fn living(climate: &Climate, dice: &mut Dice) -> Biomes {
 fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
     const COLUMNS: usize = 12;
     const ROWS: usize = 12;
-    const NAMES: [(char, &str, Detail, f64); 5] = [
-        ('m', "Dark rock", Detail::Rock, 6.0),
-        ('d', "Gravel", Detail::Gravel, 2.0),
-        ('g', "Plain", Detail::Gravel, 1.6),
-        ('p', "Pale dust", Detail::Sand, 2.5),
-        ('b', "Bright ground", Detail::Sand, 2.5),
+    const NAMES: [(char, &str, [Detail; 2], f64); 5] = [
+        ('m', "Dark rock", [Detail::Basalt, Detail::Scree], 5.0),
+        ('d', "Gravel", [Detail::Gravel, Detail::Soil], 2.0),
+        ('g', "Plain", [Detail::Gravel, Detail::Sand], 1.8),
+        ('p', "Pale dust", [Detail::Sand, Detail::Gravel], 2.5),
+        ('b', "Bright ground", [Detail::Sand, Detail::Scree], 2.5),
     ];
     let shades = *dice.pick(if kind == Kind::Bare { MOONS } else { DESERTS });
     // Lava darkens the lowlands of moons; sand brightens those of many deserts.
@@ -167,15 +194,19 @@ fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
     let mut palette: Vec<Biome> = NAMES
         .iter()
         .zip(shades)
-        .map(|((key, name, detail, detail_m), color)| Biome {
-            key: *key,
-            name: (*name).to_owned(),
-            color: color.map(|c| three_digits(c * light)),
-            variation: dice.rounded(0.12, 0.25),
-            roughness: 0.95,
-            detail: *detail,
-            detail_m: *detail_m,
-            ..Biome::default()
+        .map(|((key, name, details, detail_m), color)| {
+            let color = color.map(|c| three_digits(c * light));
+            let [detail, patch_detail] = details.map(|detail| without_wind(kind, detail));
+            Biome {
+                key: *key,
+                name: (*name).to_owned(),
+                color,
+                variation: dice.rounded(0.12, 0.25),
+                roughness: 0.95,
+                detail,
+                detail_m: *detail_m,
+                ..patched(color, patch_detail)
+            }
         })
         .collect();
     // On some hot worlds the dark lowlands still flow.
@@ -184,6 +215,7 @@ fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
             name: "Lava".to_owned(),
             color: [0.03, 0.025, 0.024],
             detail: Detail::Lava,
+            patch_detail: Detail::RopeLava,
             detail_m: dice.rounded(8.0, 20.0),
             glow: dice.rounded_log(0.2, 1.0),
             flow_m_s: dice.rounded(0.1, 0.6),

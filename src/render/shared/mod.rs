@@ -13,11 +13,11 @@ pub(crate) use structs::*;
 
 use super::biome_table::{CANOPY, ROCK, RULES, SHOWN, SHOWN_ROW, WRAP_FAR_M, WRAP_M};
 use super::debug_view::DebugView;
+use super::horizon_pool;
 use super::life::{CANOPY_LAYER_ROWS, CANOPY_LAYERS, Material};
-use super::material_maps::{PATTERN_ROUGHNESS, PATTERN_STEEPEST};
+use super::patterns::{self, PATTERN_ROUGHNESS, PATTERN_STEEPEST};
 use super::tone::{self, Tone};
 use super::wgsl::{Constant, constant};
-use super::{horizon_pool, material_noise};
 use crate::giant;
 use crate::life::canopy;
 use crate::life::form::cover;
@@ -114,7 +114,7 @@ pub(crate) fn text() -> String {
         ("PLANTING_SIDE", &(planting_map::SIDE as u32)),
         ("PATTERN_STEEPEST", &f64::from(PATTERN_STEEPEST)),
         ("PATTERN_ROUGHNESS", &f64::from(PATTERN_ROUGHNESS)),
-        ("PATTERN_SIDE", &(material_noise::SIDE as f64)),
+        ("PATTERN_SIDE", &(patterns::SIDE as f64)),
         // LUTs
         ("OPTICAL_DEPTH_SIZE", &size(OPTICAL_DEPTH_SIZE)),
         ("MULTISCATTER_SIZE", &size(MULTISCATTER_SIZE)),

@@ -1,16 +1,19 @@
-//! The patterns of the ground on the GPU: two texture arrays with a layer for each kind and all mip levels.
+//! The patterns on the GPU: two texture arrays with a layer for each kind that is shown, and all mip levels.
 //!
 //! - `tint`: half the factor on the biome's albedo (rgb) and the rank of the height among all heights, 0..1 (a). The
 //!   mean factor is 1, so that a biome keeps its colour far away, where only the coarsest level shows. The ranks make a
 //!   threshold leave a known share.
 //! - `surface`: slopes along both sides (rg), change of roughness (b), glow (a)
 //!
-//! Drawn from noise once for the whole process, on all cores.
+//! A pattern is drawn once in the process, when a planet first shows it.
 
-use super::material_kinds::{KINDS, Spot, draw};
-use super::material_noise::SIDE;
+use super::canvas::Spot;
+use super::draw;
+use super::noise::SIDE;
+use crate::planet::Detail;
+use crate::render::gpu;
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Largest slope that is stored, rise over run.
 pub(crate) const PATTERN_STEEPEST: f32 = 1.25;
@@ -25,25 +28,59 @@ struct Layer {
     surface: Vec<Texels>,
 }
 
-/// Both texture arrays.
-pub(crate) struct MaterialMaps {
+/// Both texture arrays, with a layer for each kind of pattern that a planet of the device has shown.
+#[derive(Clone, PartialEq)]
+pub(crate) struct PatternArrays {
+    kinds: Arc<[Detail]>,
     pub(crate) tint: wgpu::TextureView,
     pub(crate) surface: wgpu::TextureView,
 }
 
-impl MaterialMaps {
-    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        let layers = layers();
-        Self {
-            tint: upload(device, queue, "tints of the ground", layers.iter().map(|layer| &layer.tint)),
-            surface: upload(device, queue, "surfaces of the ground", layers.iter().map(|layer| &layer.surface)),
-        }
+impl PatternArrays {
+    /// Without any kind, one empty texel.
+    fn new(device: &wgpu::Device, queue: &wgpu::Queue, kinds: Arc<[Detail]>) -> Self {
+        let layers: Vec<&Layer> = kinds.par_iter().map(|kind| layer(*kind)).collect();
+        let tint = upload(device, queue, "tints of the ground", layers.iter().map(|layer| &layer.tint));
+        let surface = upload(device, queue, "surfaces of the ground", layers.iter().map(|layer| &layer.surface));
+        Self { kinds, tint, surface }
+    }
+
+    /// The kinds, in the order of their layers.
+    pub(crate) fn kinds(&self) -> &[Detail] {
+        &self.kinds
     }
 }
 
-fn layers() -> &'static [Layer] {
-    static LAYERS: OnceLock<Vec<Layer>> = OnceLock::new();
-    LAYERS.get_or_init(|| KINDS.into_par_iter().map(|kind| Layer::new(&draw(kind))).collect())
+/// The newest arrays of a device. Kinds are only added, so a layer keeps its index.
+pub(crate) struct PatternPool(Mutex<PatternArrays>);
+
+impl PatternPool {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        Self(Mutex::new(PatternArrays::new(device, queue, [].into())))
+    }
+
+    /// Arrays that have these kinds. New kinds make new arrays.
+    pub(crate) fn with(&self, device: &wgpu::Device, queue: &wgpu::Queue, kinds: &[Detail]) -> PatternArrays {
+        let mut arrays = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if kinds.iter().any(|kind| !arrays.kinds.contains(kind)) {
+            let added = kinds.iter().filter(|kind| !arrays.kinds.contains(kind));
+            let all = arrays.kinds.iter().chain(added).copied().collect();
+            *arrays = PatternArrays::new(device, queue, all);
+        }
+        arrays.clone()
+    }
+
+    /// Memory of the newest arrays.
+    pub(crate) fn resident_bytes(&self) -> u64 {
+        let arrays = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        gpu::view_bytes([&arrays.tint, &arrays.surface])
+    }
+}
+
+/// The layer of a kind, drawn once in the process.
+fn layer(kind: Detail) -> &'static Layer {
+    static LAYERS: [OnceLock<Layer>; Detail::ALL.len()] = [const { OnceLock::new() }; Detail::ALL.len()];
+    LAYERS[kind as usize].get_or_init(|| Layer::new(&draw(kind)))
 }
 
 fn upload<'a>(
@@ -52,12 +89,13 @@ fn upload<'a>(
     label: &str,
     layers: impl ExactSizeIterator<Item = &'a Vec<Texels>>,
 ) -> wgpu::TextureView {
+    let full = if layers.len() == 0 { 1 } else { SIDE as u32 };
     let extent =
         |side: u32, depth_or_array_layers: u32| wgpu::Extent3d { width: side, height: side, depth_or_array_layers };
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: extent(SIDE as u32, layers.len() as u32),
-        mip_level_count: SIDE.ilog2() + 1,
+        size: extent(full, layers.len().max(1) as u32),
+        mip_level_count: full.ilog2() + 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: wgpu::TextureFormat::Rgba8Unorm,
@@ -215,10 +253,15 @@ fn levels(mut texels: Vec<[f32; 4]>) -> Vec<Texels> {
 mod tests {
     use super::*;
 
+    /// Every kind that has a pattern, with its layer.
+    fn patterns() -> impl Iterator<Item = (Detail, &'static Layer)> {
+        Detail::ALL.iter().filter(|kind| **kind != Detail::None).map(|kind| (*kind, layer(*kind)))
+    }
+
     /// At every mip level, a pattern keeps the mean colour of the biome.
     #[test]
     fn every_pattern_is_neutral_at_every_level() {
-        for (kind, layer) in KINDS.iter().zip(layers()) {
+        for (kind, layer) in patterns() {
             for (level, texels) in layer.tint.iter().enumerate() {
                 for channel in 0..4 {
                     let sum: f64 = texels.iter().map(|texel| f64::from(texel[channel])).sum();
@@ -237,7 +280,7 @@ mod tests {
     /// Neighbours across the border differ no more than elsewhere.
     #[test]
     fn every_pattern_repeats_without_a_seam() {
-        for (kind, layer) in KINDS.iter().zip(layers()) {
+        for (kind, layer) in patterns() {
             let texels = &layer.tint[0];
             let step = |x: usize| -> f64 {
                 let away = |y: usize| {
@@ -254,14 +297,13 @@ mod tests {
     /// The tints of every pattern vary, and only lava glows.
     #[test]
     fn every_pattern_shows_and_only_lava_glows() {
-        use crate::planet::Detail;
-        for (kind, layer) in KINDS.iter().zip(layers()) {
+        for (kind, layer) in patterns() {
             let texels = &layer.tint[0];
             let mean = |f: &dyn Fn(&[u8; 4]) -> f64| texels.iter().map(f).sum::<f64>() / texels.len() as f64;
             let variance = mean(&|t| (f64::from(t[1]) / 127.5 - 1.0).powi(2));
             assert!(variance.sqrt() > 0.01, "{kind:?}: {variance}");
             let glows = layer.surface[0].iter().any(|t| t[3] > 0);
-            assert_eq!(glows, *kind == Detail::Lava, "{kind:?}");
+            assert_eq!(glows, kind == Detail::Lava, "{kind:?}");
         }
     }
 }

@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 
 /// Texels along a side of a pattern.
-pub(super) const SIDE: usize = 256;
+pub(crate) const SIDE: usize = 512;
 
 /// A texel of a pattern.
 #[derive(Clone, Copy)]
