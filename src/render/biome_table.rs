@@ -1,8 +1,8 @@
 //! Biomes as two small textures for `material.wgsl`: the biome of each cell of the biome table (row 0 is the hottest or
 //! highest), and a column of parameters for each biome.
 
-use super::{gpu, patterns};
 use super::life::{CANOPY_ROWS, CanopyRows};
+use super::{gpu, patterns};
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
 use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 

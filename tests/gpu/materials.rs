@@ -150,11 +150,21 @@ fn the_ground_before_the_feet_is_not_smeared() {
     assert!(low > 0.65 * medium && low < 1.6 * medium, "{low} at low, {medium} at medium quality");
 }
 
-/// Greatest correlation of a picture with itself, moved by 0.7 to 1.5 times `period_px` in any direction.
+/// Greatest correlation of the fine structure of a picture with itself, moved by 0.7 to 1.5 times `period_px` in any
+/// direction.
 fn repetition(picture: &[f64], width: usize, period_px: f64) -> f64 {
     let height = picture.len() / width;
-    let mean = picture.iter().sum::<f64>() / picture.len() as f64;
-    let away: Vec<f64> = picture.iter().map(|light| light - mean).collect();
+    // What is finer than blocks of an eighth of the period: the light of bumps is broader.
+    let block = (0.125 * period_px) as usize;
+    let around = |middle: usize, end: usize| middle.saturating_sub(block)..(middle + block + 1).min(end);
+    let away: Vec<f64> = (0..picture.len())
+        .map(|i| {
+            let (columns, rows) = (around(i % width, width), around(i / width, height));
+            let count = columns.len() * rows.len();
+            let sum: f64 = rows.map(|row| picture[row * width..][columns.clone()].iter().sum::<f64>()).sum();
+            picture[i] - sum / count as f64
+        })
+        .collect();
     let variance = away.iter().map(|w| w * w).sum::<f64>() / away.len() as f64;
     let reach = (1.5 * period_px) as usize;
     let correlation = |x: usize, y: usize, mirrored: bool| {
@@ -189,7 +199,7 @@ fn patterns_do_not_repeat() {
     let picture: Vec<f64> = light.iter().map(|pixel| f64::from(pixel[1])).collect();
     let found = repetition(&picture, width as usize, detail_m / ground_m * f64::from(height));
     println!("repetition: {found:.3}");
-    assert!(found < 0.3, "{found}: the period of the pattern is seen");
+    assert!(found < 0.45, "{found}: the period of the pattern is seen");
 }
 
 /// Patches have a pattern of their own: gravel in patches on even ground.
@@ -204,12 +214,12 @@ fn patches_have_their_own_pattern() {
         let frame = frame(&surface, &planet, camera, (PLACE.0 + 20.0, PLACE.1 + 30.0));
         gpu.draw_only(&frame, 1);
         let ([width, height], light) = gpu.renderer.radiance().unwrap();
-        // Contrast of blocks of 12 x 12 pixels.
+        // How much pixels beside each other differ in blocks of 12 x 12, by their mean.
         let contrast = |column: u32, row: u32| {
-            let inside = (0..144).map(|i| (12 * column + i % 12, 12 * row + i / 12));
-            let values: Vec<f64> = inside.map(|(x, y)| f64::from(light[(y * width + x) as usize][1])).collect();
-            let mean = values.iter().sum::<f64>() / 144.0;
-            (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / 144.0).sqrt() / mean
+            let at = |x: u32, y: u32| f64::from(light[((12 * row + y) * width + 12 * column + x) as usize][1]);
+            let inside = || (0..12).flat_map(|y| (1..12).map(move |x| (x, y)));
+            let differences: f64 = inside().map(|(x, y)| (at(x, y) - at(x - 1, y)).abs()).sum();
+            differences / inside().map(|(x, y)| at(x, y)).sum::<f64>()
         };
         let blocks = (0..height / 12).flat_map(|row| (0..width / 12).map(move |column| (column, row)));
         let rough = blocks.clone().filter(|(column, row)| contrast(*column, *row) > 0.04).count();

@@ -32,15 +32,15 @@ const LIVING: &[Ground] = &[
     ground('b', "Blue ice", [0.36, 0.50, 0.62], (Detail::BlueIce, Detail::Ice, 6.0), [-14.0, 0.52]),
     ground('s', "Snow", [0.70, 0.73, 0.76], (Detail::Snow, Detail::Crust, 4.5), [-6.0, 0.0]),
     ground('t', "Tundra", [0.19, 0.18, 0.12], (Detail::Gravel, Detail::Moss, 2.0), [1.0, 0.0]),
-    ground('c', "Cold steppe", [0.21, 0.19, 0.11], (Detail::Steppe, Detail::Grass, 1.8), [8.0, 0.0]),
-    ground('k', "Taiga", [0.055, 0.09, 0.045], (Detail::Needles, Detail::Moss, 1.4), [8.0, 0.35]),
-    ground('g', "Grassland", [0.15, 0.18, 0.065], (Detail::Grass, Detail::Steppe, 1.6), [20.0, 0.25]),
-    ground('x', "Dry scrub", [0.27, 0.22, 0.12], (Detail::Steppe, Detail::Gravel, 1.8), [20.0, 0.0]),
-    ground('f', "Forest", [0.045, 0.085, 0.03], (Detail::Litter, Detail::Moss, 1.4), [20.0, 0.5]),
+    ground('c', "Cold steppe", [0.21, 0.19, 0.11], (Detail::Steppe, Detail::Grass, 3.0), [8.0, 0.0]),
+    ground('k', "Taiga", [0.055, 0.09, 0.045], (Detail::Needles, Detail::Moss, 2.4), [8.0, 0.35]),
+    ground('g', "Grassland", [0.15, 0.18, 0.065], (Detail::Grass, Detail::Steppe, 2.6), [20.0, 0.25]),
+    ground('x', "Dry scrub", [0.27, 0.22, 0.12], (Detail::Steppe, Detail::Gravel, 3.0), [20.0, 0.0]),
+    ground('f', "Forest", [0.045, 0.085, 0.03], (Detail::Litter, Detail::Moss, 2.4), [20.0, 0.5]),
     ground('d', "Desert", [0.45, 0.32, 0.17], (Detail::Sand, Detail::Gravel, 2.5), [500.0, 0.0]),
-    ground('a', "Savanna", [0.24, 0.2, 0.075], (Detail::Steppe, Detail::Grass, 1.8), [500.0, 0.3]),
-    ground('w', "Woodland", [0.09, 0.12, 0.04], (Detail::Grass, Detail::Litter, 1.6), [500.0, 0.5]),
-    ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, Detail::Moss, 1.4), [500.0, 0.72]),
+    ground('a', "Savanna", [0.24, 0.2, 0.075], (Detail::Steppe, Detail::Grass, 3.0), [500.0, 0.3]),
+    ground('w', "Woodland", [0.09, 0.12, 0.04], (Detail::Grass, Detail::Litter, 2.6), [500.0, 0.5]),
+    ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, Detail::Moss, 2.4), [500.0, 0.72]),
 ];
 
 /// A biome with patches that differ from the rest by their pattern, and a little by their brightness.

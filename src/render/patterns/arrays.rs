@@ -123,9 +123,10 @@ fn upload<'a>(
 impl Layer {
     fn new(spots: &[Spot]) -> Self {
         let mut tints: Vec<[f32; 3]> = spots.iter().map(|spot| spot.tint).collect();
+        let heights: Vec<f32> = spots.iter().map(|spot| spot.height).collect();
+        occlude(&mut tints, &heights);
         even_out(&mut tints);
         neutralize(&mut tints);
-        let heights: Vec<f32> = spots.iter().map(|spot| spot.height).collect();
         let (ranks, slopes) = (ranks(&heights), slopes(&heights));
         let tint = tints.iter().zip(ranks).map(|(t, rank)| [0.5 * t[0], 0.5 * t[1], 0.5 * t[2], rank]).collect();
         let surface = spots.iter().zip(slopes).map(|(spot, [x, y])| {
@@ -139,6 +140,38 @@ impl Layer {
         });
         Self { tint: levels(tint), surface: levels(surface.collect()) }
     }
+}
+
+/// Darkens hollows and brightens what stands out, at two scales: the share of the sky that the heights around hide.
+fn occlude(tints: &mut [[f32; 3]], heights: &[f32]) {
+    /// Radii in texels.
+    const RADII: [usize; 2] = [3, 14];
+    const STRENGTH: f32 = 0.16;
+    /// Rise over run from the mean around at which a texel is that much darker or brighter.
+    const RISE: f32 = 0.4;
+    for radius in RADII {
+        let full = RISE * radius as f32 / SIDE as f32;
+        let around = mean_around(&mean_around(heights, radius, [1, SIDE]), radius, [SIDE, 1]);
+        for ((tint, height), around) in tints.iter_mut().zip(heights).zip(around) {
+            let factor = 1.0 + STRENGTH * ((height - around) / full).clamp(-2.5, 1.5);
+            *tint = tint.map(|c| c * factor);
+        }
+    }
+}
+
+/// Means of the values up to `radius` texels before and after each, along lines that wrap. `strides`: from a texel to
+/// the next of its line, and from a line to the next.
+fn mean_around(values: &[f32], radius: usize, strides: [usize; 2]) -> Vec<f32> {
+    let mut means = vec![0.0; values.len()];
+    for line in 0..SIDE {
+        let index = |i: usize| line * strides[1] + i % SIDE * strides[0];
+        let mut sum: f32 = (0..=2 * radius).map(|i| values[index(i + SIDE - radius)]).sum();
+        for i in 0..SIDE {
+            means[index(i)] = sum / (2 * radius + 1) as f32;
+            sum += values[index(i + radius + 1)] - values[index(i + SIDE - radius)];
+        }
+    }
+    means
 }
 
 /// Removes most of the coarse variation of brightness, because it makes the repetition of a pattern visible from afar.

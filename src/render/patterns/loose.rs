@@ -266,16 +266,18 @@ pub(super) fn ash() -> Vec<Spot> {
 /// Powder of a world without air, with small craters.
 pub(super) fn regolith() -> Vec<Spot> {
     let (swells, clods, fine) = (Drawn::new(3, 5, 91), Drawn::new(26, 4, 92), Drawn::new(64, 3, 98));
-    let crumbs = [(46, 0.16, 93), (90, 0.3, 99), (23, 0.07, 89)]
-        .map(|(period, share, seed)| (share, Stones::new(period, share, seed)));
-    // Craters of four sizes, the fewer the larger.
-    let sizes = [(4, 0.4, 94), (9, 0.45, 95), (20, 0.5, 96), (43, 0.5, 88)].map(|(period, share, seed)| {
-        (period as f32, share, Warp::new(period, 0.10 / period as f32, seed + 50), Cells::new(period, seed))
+    let stones = [(34, 0.10, 93), (70, 0.22, 99), (13, 0.03, 89)].map(|(period, share, seed)| {
+        (period as f32, share, Warp::new(2 * period, 0.06 / period as f32, seed + 50), Cells::new(period, seed))
     });
+    // Craters of five sizes, the fewer the larger.
+    let sizes =
+        [(3, 0.5, 87), (7, 0.45, 94), (13, 0.5, 95), (27, 0.55, 96), (55, 0.6, 88)].map(|(period, share, seed)| {
+            (period as f32, share, Warp::new(period, 0.08 / period as f32, seed + 50), Cells::new(period, seed))
+        });
     each(|at| {
         let grains = grain(at, 97);
-        let mut height = 0.014 * swells.at(at) + 0.0035 * clods.at(at) + 0.0012 * fine.at(at) + 0.0004 * grains;
-        let mut light = 1.0 + 0.06 * grains + 0.07 * clods.at(at) + 0.07 * fine.at(at);
+        let mut height = 0.010 * swells.at(at) + 0.0022 * clods.at(at) + 0.0009 * fine.at(at) + 0.0003 * grains;
+        let mut light = 1.0 + 0.06 * grains + 0.06 * clods.at(at) + 0.06 * fine.at(at);
         for (period, share, warp, cells) in &sizes {
             let cell = cells.at(warp.at(at));
             let [rare, width, age] = cell.own;
@@ -283,19 +285,23 @@ pub(super) fn regolith() -> Vec<Spot> {
                 continue;
             }
             // A bowl with a raised rim; old ones are filled.
-            let radius = 0.14 + 0.2 * width;
+            let radius = 0.14 + 0.22 * width;
             let r = cell.nearest / radius;
-            let fresh = 0.2 + 0.8 * age * age;
+            let fresh = 0.12 + 0.88 * age * age * age;
             let bowl = (r * r - 1.0).min(0.0);
             let rim = (-((r - 1.05) / 0.28).powi(2)).exp();
-            height += fresh * radius / period * (0.34 * bowl + 0.11 * rim);
-            light += fresh * (0.08 * rim + 0.07 * bowl);
+            height += fresh * radius / period * (0.36 * bowl + 0.11 * rim);
+            light += fresh * (0.10 * rim + 0.08 * bowl);
         }
-        for (_, stones) in &crumbs {
-            let Some((cell, inside)) = stones.at(at) else { continue };
-            let dome = (inside * (2.0 - inside)).sqrt();
-            height += 0.26 * dome / stones.period;
-            light = (0.66 + 0.62 * cell.own[1]) * (0.8 + 0.2 * dome);
+        for (period, share, warp, cells) in &stones {
+            let cell = cells.at(warp.at(at));
+            let [rare, width, tone] = cell.own;
+            let radius = 0.10 + 0.26 * width * width;
+            let inside = 1.0 - cell.nearest / radius;
+            if rare < *share && inside > 0.0 {
+                height += 0.75 * radius / period * (inside * (2.0 - inside)).sqrt();
+                light = 0.72 + 0.55 * tone;
+            }
         }
         Spot { height, tint: grey(light), roughness: 0.05, glow: 0.0 }
     })
