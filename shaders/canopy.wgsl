@@ -95,6 +95,18 @@ fn shown_density(biome: i32, place: CanopyPlace, wet: f32) -> f32 {
     return density_of(BIOME_SHOWN, CANOPY_ROW, biome_param(biome, SHOWN_ROW).x, place);
 }
 
+// Share of the area of a population that is drawn as objects (src/life/thinning.rs). `height_m`: of an object;
+// `full_m`: distance beyond which fewer and wider ones stand for all; 0 where each stands for itself.
+fn drawn_share(height_m: f32, reach_m: f32, full_m: f32, place: CanopyPlace) -> f32 {
+    let near = saturate1((1.0 - place.distance_m / max(reach_m, 1e-3)) / (1.0 - FULL_SHARE));
+    if full_m <= 0.0 || place.distance_m <= full_m { return near; }
+    let sine = abs(dot(place.v, normalize(body.eye_km + place.rel_m * 0.001)));
+    let steep = saturate1((sine - WIDEST_SINES.x) / (WIDEST_SINES.y - WIDEST_SINES.x));
+    let widest_px = WIDEST_PX * place.distance_m * frame.pixel_rad / max(height_m, 1e-3);
+    let left = full_m / place.distance_m;
+    return near * min(left * left * min(mix(WIDEST.x, WIDEST.y, steep), max(widest_px, 1.0)), 1.0);
+}
+
 // Share of a pixel below which lower objects are left out.
 const HIDDEN: f32 = 0.02;
 // Strength of groves in the density of objects that stand in groups.
@@ -143,8 +155,8 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
             density *= max(1.0 + GROUPS * kind.y * groves(kind.x, at_m, place.footprint_m), 0.0);
         }
         let areas = density * vec2f(color.w, shape.x);
-        // As in src/life/scenery.rs.
-        let drawn = saturate1((1.0 - place.distance_m / max(shape.w, 1e-3)) / (1.0 - FULL_SHARE));
+        let sides = biome_param(id, row + 9);
+        let drawn = drawn_share(height_m, shape.w, sides.w, place);
         var rest = exp(-(1.0 - drawn) * (areas.x + areas.y * (*canopy).eye_tangent));
         var relief = vec2f(1.0);
         var hue = 0.5;
@@ -159,7 +171,7 @@ fn add_canopy(canopy: ptr<function, Canopy>, number: i32, id: i32, share: f32, p
         // Flat rays meet the sides of objects, steep ones their tops, which hide what is below.
         let of_sides = areas.y * (*canopy).eye_tangent;
         let from_side = smoothstep(0.5, 1.0, of_sides / max(areas.x + of_sides, 1e-6));
-        var albedo = mix(color.rgb, biome_param(id, row + 9).rgb, from_side);
+        var albedo = mix(color.rgb, sides.rgb, from_side);
         // As in life.wgsl.
         if material >= LEAFY { albedo = hue_of_one(albedo, hue + STAND_HUES * stand) * (1.0 + STANDS * stand); }
         (*canopy).layers[end] = CanopyLayer(

@@ -29,10 +29,6 @@ struct Surface {
     @location(11) @interpolate(flat) level_light: f32,
 }
 
-fn turned(q: vec4f, v: vec3f) -> vec3f {
-    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
-}
-
 @vertex
 fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     let instance = instances[index];
@@ -40,7 +36,7 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     let turn = normalize(vec4f(unpack2x16snorm(instance.turn.x), unpack2x16snorm(instance.turn.y)));
     let first = unpack4x8unorm(instance.colors.x);
     let second = unpack4x8unorm(instance.colors.y);
-    var at_m = turned(turn, in.position) * instance.size_m;
+    var at_m = widened(instance, turned(turn, in.position) * instance.size_m, turned(turn, vec3f(0.0, 0.0, 1.0)));
     // The wind sways the tips to and fro, each object in its own time.
     let gust = sin(frame.time_secs * (1.1 + 0.5 * second.a) + 6.2832 * second.a);
     let reach_m = 0.5 * first.a * instance.size_m * in.look.z * in.look.z;
@@ -59,7 +55,7 @@ fn vertex(in: Vertex, @builtin(instance_index) index: u32) -> Surface {
     out.sky = light.sky;
     let sun = body.suns[0].dir;
     out.among = neighbours_leave(
-        instance.neighbours, ray_tangent(dot(body.eye_up, sun)), dot(normalize(-out.rel_m), sun),
+        neighbours_of(instance), ray_tangent(dot(body.eye_up, sun)), dot(normalize(-out.rel_m), sun),
     );
     out.level = in.look.w;
     out.level_light = exp2(in.normal.w);

@@ -72,10 +72,7 @@ impl Grid {
     /// The candidate of an object that is placed by hand. It stands whatever the ground offers.
     pub(super) fn placed(&self, cell: NodeId, dir: DVec3) -> Candidate {
         let dice = Dice::of_place(self.seed, dir);
-        let (_, s, t) = cube::face_point(dir);
-        let side = f64::from(1_u32 << cell.level);
-        let within = |w: f64, corner: u32| ((w + 1.0) * 0.5 * side - f64::from(corner)).clamp(0.0, 1.0);
-        Candidate { id: dice.id(), place: [within(s, cell.x), within(t, cell.y)], rank: 0.0, dice }
+        Candidate { id: dice.id(), place: place_in(cell, dir), rank: 0.0, dice }
     }
 
     /// Candidates along a side of a cell, and the share of them that stands where everything suits them.
@@ -99,6 +96,11 @@ impl Grid {
 
     /// Cells that touch a disc around a direction, `radius_m` along the sphere, in ascending order.
     pub(super) fn cells_within(&self, dir: DVec3, radius_m: f64) -> Vec<NodeId> {
+        self.nodes_within(self.level, dir, radius_m)
+    }
+
+    /// The same for nodes of another level.
+    pub(super) fn nodes_within(&self, level: u8, dir: DVec3, radius_m: f64) -> Vec<NodeId> {
         let reach_rad = radius_m / self.radius_m;
         let mut found = Vec::new();
         let mut open: Vec<NodeId> = NodeId::roots().into();
@@ -111,8 +113,8 @@ impl Grid {
                 continue;
             }
             // The sides of a node are great circles, so that no point of it is farther from its middle than a corner.
-            if node.level == self.level || (away_rad + half_rad) * (1.0 + ROUNDING) < reach_rad {
-                found.extend(node.descendants(self.level));
+            if node.level == level || (away_rad + half_rad) * (1.0 + ROUNDING) < reach_rad {
+                found.extend(node.descendants(level));
             } else {
                 open.extend(node.children());
             }
@@ -134,6 +136,14 @@ impl Grid {
             found.extend(nodes.map(|(x, y)| NodeId { level: self.level, face, x, y }));
         }
     }
+}
+
+/// Place of a direction in a node, 0 to 1.
+pub(super) fn place_in(node: NodeId, dir: DVec3) -> [f64; 2] {
+    let (_, s, t) = cube::face_point(dir);
+    let side = f64::from(1_u32 << node.level);
+    let within = |w: f64, corner: u32| ((w + 1.0) * 0.5 * side - f64::from(corner)).clamp(0.0, 1.0);
+    [within(s, node.x), within(t, node.y)]
 }
 
 /// Angle between unit vectors; precise where it is small.

@@ -11,13 +11,15 @@
 //! - `census`: how many objects stand on a whole planet
 //! - [`query`]: objects of a terrain, for games and exports; `nearest`: the nearest one
 //! - `solid`: what bodies hit of objects, and what moves among them
-//! - [`scenery`]: the objects that a view draws, kept from one view to the next
+//! - [`scenery`]: the objects that a view draws, kept from one view to the next; `around`: their cells;
+//!   [`thinning`]: how many of them, and how wide, at a distance
 //!
 //! A cell of a population is a node of the quadtree. Each candidate in it has a place, a size and a rank by integer
 //! hash of the population's seed and the node, and stands if its rank is below the density there. The density follows
 //! from [`Sample`](crate::terrain::Sample)s, so lists are the same bits on every machine, and objects stand on the
 //! ground that queries answer.
 
+mod around;
 pub(crate) mod canopy;
 mod census;
 pub mod form;
@@ -35,6 +37,7 @@ pub mod scenery;
 mod soil;
 mod solid;
 pub(crate) mod suitability;
+pub mod thinning;
 
 pub use canopy::{Canopies, Canopy};
 pub use model::Model;

@@ -13,6 +13,9 @@ use std::collections::HashSet;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+/// Levels from a group of cells down to a cell.
+const GROUP_LEVELS: u8 = 2;
+
 /// A population of a planet, ready to be placed.
 #[derive(Clone, Debug)]
 pub(super) struct Placement {
@@ -96,11 +99,31 @@ impl Placement {
         (node.level == self.soil_level).then_some(node)
     }
 
+    /// Level of the nodes that hold what is left of the cells in them, where that is a sixteenth: that of the cells for
+    /// a sparse population.
+    pub(super) fn group_level(&self) -> u8 {
+        self.grid.level.saturating_sub(GROUP_LEVELS).max(self.soil_level).min(self.grid.level)
+    }
+
     /// Adds the objects of cells that share their soil: those of each cell in the order of its candidates, and last
     /// those that are placed by hand. `soil`: that of [`Placement::soil_node`]. Cells that are placed together take
     /// less time than one by one.
     pub(super) fn place(
         &self,
+        terrain: &Terrain,
+        cells: &[NodeId],
+        soil: Option<&Soil>,
+        memory: &mut PlacementScratch,
+        placed: &mut Vec<Instance>,
+    ) {
+        self.place_below(1.0, terrain, cells, soil, memory, placed);
+    }
+
+    /// The same for objects of low rank alone: those below a limit, bit for bit those of the whole list. Others cost
+    /// little, since the rank of a candidate is known before anything else, and grows with what does not suit it.
+    pub(super) fn place_below(
+        &self,
+        limit: f64,
         terrain: &Terrain,
         cells: &[NodeId],
         soil: Option<&Soil>,
@@ -116,11 +139,11 @@ impl Placement {
             let edits = edits_at(cell);
             // Without an offer it stands nowhere in the node.
             if soil.is_none() || offer.is_some() || edits.is_some() {
-                self.find_likely(cell, soil.map(|_| offer.as_ref()), edits, memory);
+                self.find_likely((cell, limit), soil.map(|_| offer.as_ref()), edits, memory);
             }
         }
-        self.thin_out(terrain, memory);
-        self.stand(terrain, soil, memory, placed);
+        self.thin_out(limit, terrain, memory);
+        self.stand(limit, terrain, soil, memory, placed);
         for &cell in cells {
             if let Some(edits) = edits_at(cell) {
                 placed.extend(self.placed_by_hand(terrain, edits, cell, memory));
@@ -128,10 +151,11 @@ impl Placement {
         }
     }
 
-    /// Adds the candidates of a cell that the soil leaves. `offer`: what the soil offers, if there is soil.
+    /// Adds the candidates of a cell that the soil leaves. `limit`: of their ranks among the objects. `offer`: what the
+    /// soil offers, if there is soil.
     fn find_likely(
         &self,
-        cell: NodeId,
+        (cell, limit): (NodeId, f64),
         offer: Option<Option<&Offer>>,
         edits: Option<&Arc<Edits>>,
         memory: &mut PlacementScratch,
@@ -140,6 +164,10 @@ impl Placement {
         self.find_planted(edits, cell, planted);
         let part = offer.flatten().map(|offer| (offer, offer.part(cell)));
         let likely = self.grid.candidates(cell).enumerate().filter_map(|(number, candidate)| {
+            // No share is more than 1.
+            if limit < 1.0 && candidate.rank >= limit {
+                return None;
+            }
             let planting = planted.get(number).copied().unwrap_or(Planting::NONE);
             let (offered, most) = match offer {
                 Some(_) => {
@@ -149,7 +177,7 @@ impl Placement {
                 }
                 None => (1.0, 1.0),
             };
-            (candidate.rank < most).then_some(Likely { candidate, offered, most, clumping: 1.0, planting })
+            (candidate.rank < most * limit).then_some(Likely { candidate, offered, most, clumping: 1.0, planting })
         });
         let before = candidates.len();
         candidates.extend(likely);
@@ -160,7 +188,7 @@ impl Placement {
     }
 
     /// Drops the candidates that stand between groups.
-    fn thin_out(&self, terrain: &Terrain, memory: &mut PlacementScratch) {
+    fn thin_out(&self, limit: f64, terrain: &Terrain, memory: &mut PlacementScratch) {
         let PlacementScratch { candidates, dirs, clumpings, .. } = memory;
         if !self.suitability.has_groups() {
             return;
@@ -171,7 +199,7 @@ impl Placement {
         let mut kept = 0;
         for number in 0..dirs.len() {
             let likely = Likely { clumping: clumpings[number], ..candidates[number] };
-            if likely.candidate.rank < likely.most * likely.clumping {
+            if likely.candidate.rank < likely.most * likely.clumping * limit {
                 (candidates[kept], dirs[kept]) = (likely, dirs[number]);
                 kept += 1;
             }
@@ -181,7 +209,14 @@ impl Placement {
     }
 
     /// Adds the objects that stand on the ground at their places. The ground is dear: it is asked for last.
-    fn stand(&self, terrain: &Terrain, soil: Option<&Soil>, memory: &mut PlacementScratch, placed: &mut Vec<Instance>) {
+    fn stand(
+        &self,
+        limit: f64,
+        terrain: &Terrain,
+        soil: Option<&Soil>,
+        memory: &mut PlacementScratch,
+        placed: &mut Vec<Instance>,
+    ) {
         let PlacementScratch { candidates, dirs, samples, scratch, .. } = memory;
         // Each is written as a whole.
         samples.resize(dirs.len(), Sample::default());
@@ -203,7 +238,7 @@ impl Placement {
                 Some(_) => 0.0,
                 None => offered * clumping * self.suitability.planted(sample, *planting),
             };
-            (candidate.rank < density).then(|| self.instance(candidate, *dir, density, sample))
+            (candidate.rank < density * limit).then(|| self.instance(candidate, *dir, density, sample))
         }));
     }
 

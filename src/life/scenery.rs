@@ -1,21 +1,23 @@
 //! Scenery: the objects that a view draws, cell by cell, and those of earlier views that serve it.
 
+use super::around::{Needed, needed};
 use super::canopy;
 use super::form::Cover;
-use super::grid::angle;
+use super::grid::place_in;
 use super::model::Model;
 use super::placement::{Placement, PlacementScratch};
 #[cfg(feature = "render")]
 use super::planting_map::{PlantingMap, PlantingMaps};
 use super::query::Instance;
 use super::soil::{Soil, Soils};
-use crate::lod::{Quality, View};
+use super::thinning::{Thinning, is_low_cover, thinnings};
+use crate::lod::View;
 use crate::planet::{Key, MAX_POPULATIONS, Population};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
-use glam::{DQuat, DVec3, Quat};
+use glam::{DQuat, DVec3, Quat, Vec3};
 use rayon::prelude::*;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// An object as it is drawn.
@@ -36,11 +38,23 @@ pub struct SceneryObject {
     pub rank: f32,
     /// See [`Instance::variant`].
     pub variant: u8,
-    /// Place in the cell, 0 to 1.
+    /// Place in the node of its cell, 0 to 1.
     pub place: [f32; 2],
+    /// Normal of the ground around, over some metres; upwards where that is not known.
+    pub ground_planet: Vec3,
 }
 
-/// The objects of a population in a node.
+impl SceneryObject {
+    /// How far the ground rises with each metre to the side, as seen from an eye. `rel_m`: from there to the foot.
+    pub fn rise_aside(&self, rel_m: DVec3) -> f64 {
+        let up = self.foot_planet_m;
+        let aside = up.cross(rel_m).normalize_or_zero();
+        let ground = self.ground_planet.as_dvec3();
+        -ground.dot(aside) / ground.dot(up.normalize_or(DVec3::Z)).max(0.1)
+    }
+}
+
+/// The objects of a population in a node: a cell, or far away a group of them.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SceneryCell {
@@ -48,8 +62,10 @@ pub struct SceneryCell {
     pub population: u16,
     /// The node.
     pub id: NodeId,
-    /// Its objects.
+    /// Its objects: those of low rank alone, where fewer and wider ones stand for all.
     pub objects: Vec<SceneryObject>,
+    /// Rank below which objects are there.
+    limit: f64,
     /// Middle of a sphere that holds their feet, metres from the planet's centre.
     pub center_planet_m: DVec3,
     /// Radius of that sphere.
@@ -81,6 +97,9 @@ pub struct Scenery {
     /// For each population of the planet, the distance from the eye up to which its objects are drawn; beyond a half of
     /// it they thin out by rank.
     pub reach_m: Vec<f64>,
+    /// For each population of the planet, the distance from the eye beyond which fewer and wider objects stand for all;
+    /// infinite where each stands for itself.
+    pub full_m: Vec<f64>,
     /// For each population of the planet, the cover of its form; None for those that are off.
     pub(crate) covers: Vec<Option<Cover>>,
     /// What edits, water, ridges and hollows make of the populations; None where they change nothing, or not yet.
@@ -100,51 +119,8 @@ impl Scenery {
         let is_same = is_same
             && self.planting.as_ref().map(Arc::as_ptr) == other.planting.as_ref().map(Arc::as_ptr)
             && self.covers.iter().map(Option::is_some).eq(other.covers.iter().map(Option::is_some));
-        is_same && self.reach_m == other.reach_m
+        is_same && self.reach_m == other.reach_m && self.full_m == other.full_m
     }
-}
-
-/// Share of its reach up to which all objects of a population are drawn.
-pub const FULL_SHARE: f64 = 0.5;
-
-/// Share of the objects of a population that are drawn at a distance.
-pub fn share_at(distance_m: f64, reach_m: f64) -> f64 {
-    ((reach_m - distance_m) / (reach_m * (1.0 - FULL_SHARE))).clamp(0.0, 1.0)
-}
-
-/// Heights of an object within which it is drawn, and the most objects of a population around the eye.
-fn limits(quality: Quality) -> (f64, f64) {
-    match quality {
-        Quality::Low => (60.0, 8_000.0),
-        Quality::Medium => (180.0, 80_000.0),
-        Quality::High => (360.0, 300_000.0),
-    }
-}
-
-/// Distance up to which objects of a population are drawn, apart from others.
-fn own_reach_m(placement: &Placement, quality: Quality) -> f64 {
-    let (heights, most) = limits(quality);
-    let by_count_m = (most / (placement.most_per_m2() * std::f64::consts::PI)).sqrt();
-    (placement.population().height_m * heights).min(by_count_m)
-}
-
-/// Distances up to which objects of each population are drawn among all: none beyond a denser population of like size
-/// in its biomes, because single trees would stand on a forest that is a canopy already.
-fn reaches_m(placements: &[Placement], quality: Quality) -> Vec<f64> {
-    let area = |population: &Population| population.per_hectare * population.height_m * population.height_m;
-    let hides = |own: &Population, other: &Population| {
-        let meets =
-            own.biomes.is_empty() || other.biomes.is_empty() || own.biomes.chars().any(|key| other.stands_in(key));
-        // One that asks for banks or ridges is not everywhere.
-        meets && !other.asks_lie() && area(other) > area(own) && other.height_m > 0.5 * own.height_m
-    };
-    let own_m: Vec<f64> = placements.iter().map(|placement| own_reach_m(placement, quality)).collect();
-    let among_m = |placement: &Placement, own_reach_m: f64| {
-        let others = placements.iter().zip(&own_m);
-        let denser = others.filter(|(other, _)| hides(placement.population(), other.population()));
-        denser.map(|(_, other_m)| *other_m).fold(own_reach_m, f64::min)
-    };
-    placements.iter().zip(&own_m).map(|(placement, own_m)| among_m(placement, *own_m)).collect()
 }
 
 /// Cells and models of earlier views.
@@ -159,24 +135,6 @@ pub(crate) struct SceneryCache {
 
 /// Most objects that the cache keeps.
 const MOST_KEPT: usize = 600_000;
-
-/// Share of the height above the ground that counts for the reach: hills may rise towards the eye.
-const HEIGHT_COUNTS: f64 = 0.8;
-
-/// A cell that a view needs.
-struct Needed<'a> {
-    placement: &'a Placement,
-    id: NodeId,
-    rules: Key,
-    ground: Key,
-    away_m: f64,
-}
-
-impl Needed<'_> {
-    fn soil_node(&self) -> Option<NodeId> {
-        self.placement.soil_node(self.id)
-    }
-}
 
 impl SceneryCache {
     /// The scenery around the eye of a view as far as it is kept, and the rest, nearest cells first, while `keep_going`
@@ -193,6 +151,7 @@ impl SceneryCache {
             cells: Vec::new(),
             models: vec![None; populations],
             reach_m: vec![0.0; populations],
+            full_m: vec![f64::INFINITY; populations],
             covers: vec![None; populations],
             #[cfg(feature = "render")]
             planting: None,
@@ -201,14 +160,14 @@ impl SceneryCache {
         if keep_going() {
             self.measure_covers(&placements);
         }
-        let reaches_m = reaches_m(&placements, view.quality);
-        for (placement, reach_m) in placements.iter().zip(&reaches_m) {
+        let thinnings = thinnings(&placements, view.quality);
+        for (placement, thinning) in placements.iter().zip(&thinnings) {
             let index = usize::from(placement.index);
-            scenery.reach_m[index] = *reach_m;
+            (scenery.reach_m[index], scenery.full_m[index]) = (thinning.reach_m, thinning.full_m);
             scenery.covers[index] = self.covers.get(&Model::key_of(placement.population())).copied();
             is_whole &= scenery.covers[index].is_some();
         }
-        let needed = needed(terrain, view, (&placements, &reaches_m));
+        let needed = needed(terrain, view, (&placements, &thinnings));
         // From afar, nothing is drawn.
         for placement in placements.iter().filter(|_| !needed.is_empty()) {
             let index = usize::from(placement.index);
@@ -216,8 +175,7 @@ impl SceneryCache {
             is_whole &= scenery.models[index].is_some();
         }
         is_whole &= self.make_lacking(terrain, &needed, keep_going);
-        let cells = needed.iter().filter_map(|needed| self.known_by_rules(needed));
-        scenery.cells = cells.filter(|cell| !cell.objects.is_empty()).cloned().collect();
+        scenery.cells = self.cells_for(&needed);
         #[cfg(feature = "render")]
         {
             let (planting, is_whole_map) = self.planting.around(terrain, view.camera.position_planet_m, keep_going);
@@ -251,13 +209,33 @@ impl SceneryCache {
         })
     }
 
-    fn known(&self, needed: &Needed<'_>) -> Option<&Arc<SceneryCell>> {
-        self.known_by_rules(needed).filter(|cell| cell.ground == needed.ground)
+    /// Cells with objects that are kept, nearest first. Where a group of cells is not there yet its cells stand in, and
+    /// where a cell is not, its group.
+    fn cells_for(&self, needed: &[Needed<'_>]) -> Vec<Arc<SceneryCell>> {
+        let (mut cells, mut seen) = (Vec::new(), HashSet::new());
+        for needed in needed {
+            let mut add = |cell: &Arc<SceneryCell>| {
+                if !cell.objects.is_empty() && seen.insert((cell.population, cell.id)) {
+                    cells.push(cell.clone());
+                }
+            };
+            if let Some(cell) = self.known_by_rules(needed, needed.id) {
+                add(cell);
+            } else {
+                needed.standing_in().filter_map(|id| self.known_by_rules(needed, id)).for_each(add);
+            }
+        }
+        cells
     }
 
-    /// A cell that is kept, also from the ground before an edit: its objects stand in for those that are not there yet.
-    fn known_by_rules(&self, needed: &Needed<'_>) -> Option<&Arc<SceneryCell>> {
-        self.cells.get(&(needed.placement.index, needed.id)).filter(|cell| cell.rules == needed.rules)
+    fn known(&self, needed: &Needed<'_>) -> Option<&Arc<SceneryCell>> {
+        let is_whole = |cell: &&Arc<SceneryCell>| cell.ground == needed.ground && cell.limit >= needed.limit;
+        self.known_by_rules(needed, needed.id).filter(is_whole)
+    }
+
+    /// A node that is kept, also from the ground before an edit: its objects stand in for those that are not there yet.
+    fn known_by_rules(&self, needed: &Needed<'_>, id: NodeId) -> Option<&Arc<SceneryCell>> {
+        self.cells.get(&(needed.placement.index, id)).filter(|cell| cell.rules == needed.rules)
     }
 
     /// Measures the covers of populations that are not kept.
@@ -293,63 +271,40 @@ impl SceneryCache {
 }
 
 impl Scenery {
+    /// How objects of a population thin out.
+    pub fn thinning(&self, population: usize) -> Thinning {
+        let of = |list: &[f64], or: f64| list.get(population).copied().unwrap_or(or);
+        Thinning { full_m: of(&self.full_m, f64::INFINITY), reach_m: of(&self.reach_m, 0.0) }
+    }
+
     /// Objects in all cells.
     pub fn object_count(&self) -> usize {
         self.cells.iter().map(|cell| cell.objects.len()).sum()
     }
 }
 
-/// Cells around the eye that a view needs, nearest first: those behind it, too, for shadows, and because it may turn
-/// before the next surface is there.
-///
-/// `placements`, `reaches_m`: all that are on, and how far each is drawn.
-fn needed<'a>(terrain: &Terrain, view: &View, (placements, reaches_m): (&'a [Placement], &[f64])) -> Vec<Needed<'a>> {
-    let planet = terrain.planet();
-    let (eye, planet_m) = (view.camera.position_planet_m, planet.radius_m());
-    let farthest_m = reaches_m.iter().copied().fold(0.0, f64::max);
-    // From orbit the ground below is not even asked for.
-    if eye.length() - planet_m - terrain.height_bounds_m().1 > farthest_m / HEIGHT_COUNTS {
-        return Vec::new();
-    }
-    let dir = eye.normalize_or(DVec3::Z);
-    let ground_m = planet_m + terrain.height_m(dir).max(planet.sea_level_m().unwrap_or(f64::MIN));
-    let above_m = (eye.length() - ground_m).max(0.0);
-    if HEIGHT_COUNTS * above_m > farthest_m {
-        return Vec::new();
-    }
-    // What decides about the ground, the climate and the biomes of a place.
-    let site = Key::of(&(&planet.biomes, &planet.climate, planet.sea_level_m(), planet.radius_km, planet.seed));
-    let mut needed = Vec::new();
-    for (placement, reach_m) in placements.iter().zip(reaches_m) {
-        // From above, less of the ground is in reach.
-        let flat_m = (reach_m * reach_m - (HEIGHT_COUNTS * above_m).powi(2)).max(0.0).sqrt();
-        if flat_m <= 0.0 {
-            continue;
-        }
-        let rules = Key::of(&(site, placement.population().placed()));
-        for id in placement.grid.cells_within(dir, flat_m) {
-            let ground = Key::of(&(terrain.tile_keys_at(id), placement.edits_key(terrain, id)));
-            let away_m = angle(id.direction(0.5, 0.5), dir) * planet_m;
-            needed.push(Needed { placement, id, rules, ground, away_m });
-        }
-    }
-    needed.sort_by(|a, b| {
-        a.away_m.total_cmp(&b.away_m).then(a.id.cmp(&b.id)).then(a.placement.index.cmp(&b.placement.index))
-    });
-    needed
-}
-
 fn make(terrain: &Terrain, needed: &Needed<'_>, soil: Option<&Soil>, memory: &mut PlacementScratch) -> SceneryCell {
     let planet_m = terrain.planet().radius_m();
-    let mut instances = Vec::new();
-    needed.placement.place(terrain, &[needed.id], soil, memory, &mut instances);
-    let objects: Vec<SceneryObject> = instances.iter().map(|instance| object(instance, planet_m)).collect();
+    let (mut instances, placement) = (Vec::new(), needed.placement);
+    let cells: Vec<NodeId> = needed.id.descendants(placement.grid.level).collect();
+    placement.place_below(needed.limit, terrain, &cells, soil, memory, &mut instances);
+    let is_group = needed.id.level < placement.grid.level;
+    let object = |instance: &Instance| {
+        let up = instance.dir_planet;
+        let ground = soil.filter(|_| is_low_cover(placement.population())).map(|soil| soil.normal(up, planet_m));
+        let object = object(instance, planet_m, ground.unwrap_or(up));
+        // Candidates know their place in a cell.
+        let place = if is_group { place_in(needed.id, up).map(|part| part as f32) } else { object.place };
+        SceneryObject { place, ..object }
+    };
+    let objects: Vec<SceneryObject> = instances.iter().map(object).collect();
     let middle = objects.iter().map(|object| object.foot_planet_m).sum::<DVec3>() / objects.len().max(1) as f64;
     let from_middle = |object: &SceneryObject| object.foot_planet_m.distance(middle);
     let greatest = |of: &dyn Fn(&SceneryObject) -> f64| objects.iter().map(of).fold(0.0, f64::max);
     SceneryCell {
-        population: needed.placement.index,
+        population: placement.index,
         id: needed.id,
+        limit: needed.limit,
         center_planet_m: middle,
         feet_radius_m: greatest(&from_middle),
         tallest_m: greatest(&|object| object.size_m.into()),
@@ -359,7 +314,7 @@ fn make(terrain: &Terrain, needed: &Needed<'_>, soil: Option<&Soil>, memory: &mu
     }
 }
 
-fn object(instance: &Instance, planet_m: f64) -> SceneryObject {
+fn object(instance: &Instance, planet_m: f64, ground_planet: DVec3) -> SceneryObject {
     SceneryObject {
         id: instance.id,
         foot_planet_m: instance.foot_planet_m(planet_m),
@@ -369,14 +324,16 @@ fn object(instance: &Instance, planet_m: f64) -> SceneryObject {
         rank: instance.rank as f32,
         variant: instance.variant,
         place: instance.place.map(|part| part as f32),
+        ground_planet: ground_planet.as_vec3(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lod::Camera;
-    use crate::planet::{Layer, Planet};
+    use crate::lod::{Camera, Quality};
+    use crate::planet::life::Tuft;
+    use crate::planet::{Form, Layer, Planet};
     use crate::sphere::LatLon;
 
     fn terrain(population: Population, amplitude_m: f64) -> Terrain {
@@ -404,5 +361,60 @@ mod tests {
         let (others, is_whole) = cache.find(&terrain(other, 100.0), &view, &|| false);
         assert!(!is_whole);
         assert_eq!(others.object_count(), 0);
+    }
+
+    #[test]
+    fn far_away_a_view_has_a_part_of_each_list_and_each_object_of_it_is_one_of_the_list() {
+        let form = Form::Tuft(Tuft::default());
+        let grass = Population { per_hectare: 30_000.0, height_m: 0.4, solid: false, form, ..Population::default() };
+        let terrain = terrain(Population { slope_to_deg: 90.0, ..grass }, 100.0);
+        let place = LatLon::from_degrees(10.0, 20.0);
+        let eye_m = 600_000.0 + terrain.height_m(place.direction()) + 2.0;
+        let camera = Camera::over(place, eye_m, 0.0, 0.0, Camera::DEFAULT_FOV_Y_RAD);
+        let view = View { camera, size_px: [320, 180], quality: Quality::Medium };
+        let mut cache = SceneryCache::default();
+        let (scenery, is_whole) = cache.find(&terrain, &view, &|| true);
+        let placement = &Placement::all(terrain.planet())[0];
+        assert!(is_whole);
+
+        let (mut memory, mut soils) = (PlacementScratch::default(), Soils::default());
+        let (mut groups, mut kept, mut all) = (0, 0, 0);
+        for cell in &scenery.cells {
+            let soil_node = placement.soil_node(cell.id);
+            soils.add(&terrain, soil_node.into_iter());
+            let (mut placed, planet_m) = (Vec::new(), terrain.planet().radius_m());
+            let cells: Vec<NodeId> = cell.id.descendants(placement.grid.level).collect();
+            for cell in &cells {
+                placement.place(&terrain, &[*cell], soils.get(soil_node), &mut memory, &mut placed);
+            }
+            let below = placed.iter().filter(|instance| instance.rank < cell.limit);
+            let below: Vec<SceneryObject> = below.map(|instance| object(instance, planet_m, DVec3::Z)).collect();
+            assert_eq!(below.len(), cell.objects.len(), "{:?}, {}", cell.id, cell.limit);
+            for (expected, found) in below.iter().zip(&cell.objects) {
+                let expected = SceneryObject { place: found.place, ground_planet: found.ground_planet, ..*expected };
+                assert_eq!(expected, *found);
+                assert!(found.place.iter().all(|part| (0.0..=1.0).contains(part)), "{found:?}");
+            }
+            let away_m = cell.center_planet_m.distance(view.camera.position_planet_m) - 2.0 * cell.feet_radius_m;
+            assert!(cell.limit >= scenery.thinning(0).limit(away_m).min(1.0), "{away_m} m: {}", cell.limit);
+            groups += usize::from(cells.len() > 1);
+            (kept, all) = (kept + cell.objects.len(), all + placed.len());
+        }
+        assert!(groups > 10 && kept > 1000 && 4 * kept < all, "{groups} groups, {kept} objects of {all}");
+        assert!(scenery.cells.iter().any(|cell| cell.limit == 1.0));
+
+        // While the eye moves on and nothing is made yet, groups stand in for their cells, and cells for their group.
+        let moved = LatLon::from_degrees(10.0 + 90.0 / 600_000.0 * 180.0 / std::f64::consts::PI, 20.0);
+        let camera = Camera::over(moved, eye_m, 0.0, 0.0, Camera::DEFAULT_FOV_Y_RAD);
+        let (standing_in, is_whole) = cache.find(&terrain, &View { camera, ..view }, &|| false);
+        assert!(!is_whole);
+        let ids = |scenery: &Scenery, by_m: DVec3, within_m: f64| -> HashSet<u64> {
+            let objects = scenery.cells.iter().flat_map(|cell| &cell.objects);
+            objects.filter(|one| one.foot_planet_m.distance(by_m) < within_m).map(|one| one.id).collect()
+        };
+        for by_m in [place, moved].map(|at| at.direction() * (eye_m - 2.0)) {
+            let (before, now) = (ids(&scenery, by_m, 30.0), ids(&standing_in, by_m, 30.0));
+            assert!(before.len() > 20 && before.is_subset(&now), "{} objects, then {}", before.len(), now.len());
+        }
     }
 }

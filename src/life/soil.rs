@@ -3,10 +3,12 @@
 //! A population that is denser than a few objects in a node reads this grid and interpolates; only where an object
 //! stands is the ground evaluated once more.
 
+use super::grid::place_in;
 use super::suitability::Suitability;
 use crate::planet::Planet;
 use crate::sphere::NodeId;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
+use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
@@ -57,6 +59,18 @@ impl Soil {
             sample.water_level_m.is_none() && !by_river && !by_sea
         });
         Self { id, samples, is_dry }
+    }
+
+    /// Normal of the ground around a direction in the node, over some twenty metres. `planet_m`: radius of the planet.
+    pub(super) fn normal(&self, dir: DVec3, planet_m: f64) -> DVec3 {
+        let last = (SIDE - 1) as f64;
+        let [x, y] = place_in(self.id, dir).map(|share| ((share * last) as usize).min(SIDE - 2));
+        let point = |across: usize, up: usize| {
+            let [u, v] = [x + across, y + up].map(|number| number as f64 / last);
+            self.id.direction(u, v) * (planet_m + self.samples[(y + up) * SIDE + x + across].height_m)
+        };
+        let normal = (point(1, 1) - point(0, 0)).cross(point(0, 1) - point(1, 0)).normalize_or(dir);
+        if normal.dot(dir) < 0.0 { -normal } else { normal }
     }
 
     /// What a population finds in the node; None if it stands nowhere there.

@@ -13,7 +13,8 @@ use tellus::tiles::{Builder, Surface};
 
 /// Height of the eye over the ground, metres.
 const EYE_M: f64 = 2.0;
-/// Share of its reach within which the view has every object of a population, whatever the height of the eye.
+/// Share of its reach within which the view has every object of a population that it needs, whatever the height of the
+/// eye.
 const INSIDE: f64 = 0.99;
 
 /// Angle between unit vectors; precise where it is small.
@@ -28,8 +29,9 @@ fn told(id: u64, foot_m: DVec3, size_m: f32) -> Told {
     (id, (foot_m * 1000.0).round().to_array().map(|part| part as i64), size_m.to_bits())
 }
 
-/// Objects of all populations within a distance, by queries of one population each.
-fn queried(whole: &Terrain, population: usize, dir: DVec3, radius_m: f64) -> Vec<Told> {
+/// Objects of all populations within a distance, by queries of one population each, and whether a view needs each.
+/// `full_m`: distance beyond which it needs those of low rank alone.
+fn queried(whole: &Terrain, population: usize, dir: DVec3, [radius_m, full_m]: [f64; 2]) -> Vec<(Told, bool)> {
     let mut planet = Planet::clone(whole.planet());
     for (index, other) in planet.life.iter_mut().enumerate() {
         other.enabled &= index == population;
@@ -37,8 +39,11 @@ fn queried(whole: &Terrain, population: usize, dir: DVec3, radius_m: f64) -> Vec
     let alone = Terrain::builder(planet.into()).reuse(whole).build().unwrap();
     let found: Vec<Instance> = alone.instances(dir, radius_m).unwrap();
     let planet_m = whole.planet().radius_m();
-    let told = found.iter().map(|one| told(one.id, one.foot_planet_m(planet_m), one.size_m as f32));
-    let mut told: Vec<Told> = told.collect();
+    let told = found.iter().map(|one| {
+        let needed = (full_m / (angle(one.dir_planet, dir) * planet_m).hypot(EYE_M).max(full_m)).powi(2);
+        (told(one.id, one.foot_planet_m(planet_m), one.size_m as f32), one.rank < needed)
+    });
+    let mut told: Vec<(Told, bool)> = told.collect();
     told.sort_unstable();
     told
 }
@@ -62,21 +67,23 @@ fn compare(builder: &Builder, terrain: &Terrain, place: LatLon, quality: Quality
     let scenery = &settled(builder, planet, &view).scenery;
     let mut compared = 0;
     for (population, reach_m) in scenery.reach_m.iter().enumerate().filter(|(_, reach_m)| **reach_m > 0.0) {
-        let radius_m = INSIDE * reach_m;
+        let (radius_m, full_m) = (INSIDE * reach_m, scenery.full_m[population].min(*reach_m));
         let cells = scenery.cells.iter().filter(|cell| usize::from(cell.population) == population);
         let inside = cells
             .flat_map(|cell| &cell.objects)
             .filter(|object| angle(object.foot_planet_m.normalize(), dir) * planet_m <= radius_m - 0.01);
         let mut drawn: Vec<Told> = inside.map(|one| told(one.id, one.foot_planet_m, one.size_m)).collect();
         drawn.sort_unstable();
-        let mut answered = queried(terrain, population, dir, radius_m);
-        // Objects within a centimetre of the rim may be on either side of it.
-        answered.retain(|told| {
-            drawn.binary_search(told).is_ok() || {
-                let foot = DVec3::from_array(told.1.map(|part| part as f64 * 0.001));
-                angle(foot.normalize(), dir) * planet_m <= radius_m - 0.02
-            }
+        let mut answered = queried(terrain, population, dir, [radius_m, full_m]);
+        // Far away objects of low rank stand for all. Those within a centimetre of the rim may be on either side of it.
+        answered.retain(|(told, is_needed)| {
+            drawn.binary_search(told).is_ok()
+                || *is_needed && {
+                    let foot = DVec3::from_array(told.1.map(|part| part as f64 * 0.001));
+                    angle(foot.normalize(), dir) * planet_m <= radius_m - 0.02
+                }
         });
+        let answered: Vec<Told> = answered.into_iter().map(|(told, _)| told).collect();
         let name = &planet.life[population].name;
         assert!(drawn == answered, "{name} at {place:?}: {} drawn, {} by query", drawn.len(), answered.len());
         compared += drawn.len();

@@ -259,6 +259,38 @@ fn the_canopy_from_afar_has_the_colour_and_the_light_of_its_objects() {
 }
 
 #[test]
+fn grass_goes_on_where_not_each_tuft_is_drawn() {
+    let mut planet = (*covered_by("Grass")).clone();
+    (planet.life[0].height_m, planet.life[0].per_hectare) = (0.4, 40_000.0);
+    let planet = Arc::new(planet);
+    let view = view(&planet, 2.0, -4.0);
+    let mut surface = surface_of(&planet, &view);
+    let drawn = radiance(&surface, &planet, view, 50.0);
+    surface.scenery.cells.clear();
+    surface.scenery.reach_m.fill(0.0);
+    let canopy = radiance(&surface, &planet, view, 50.0);
+    let width = SIZE_PX[0] as usize;
+    let up = view.camera.position_planet_m.normalize();
+    let north = tellus::sphere::Tangent::new(up).north_planet;
+    // How much pixels differ from their neighbours, in some rows that show a distance.
+    let grain = |pixels: &[[f32; 3]], distance_m: f64| {
+        let row = pixel(&view.camera, up * 500_000.0 + north * distance_m).unwrap() / width;
+        let light = |row: usize, x: usize| f64::from(pixels[row * width + x][1]);
+        let places = (row - 1..=row + 1).flat_map(|row| (8..width - 8).map(move |x| (row, x)));
+        let (differ, sum) = places.fold((0.0, 0.0), |(differ, sum), (row, x)| {
+            (differ + (light(row, x + 1) - light(row, x)).abs(), sum + light(row, x))
+        });
+        differ / sum
+    };
+    // Tufts that stand for themselves end at 72 m.
+    let grains = [35.0, 50.0, 85.0, 120.0].map(|distance_m| grain(&drawn, distance_m));
+    let smooth = [85.0, 120.0].map(|distance_m| grain(&canopy, distance_m));
+    println!("{grains:.4?}, canopy alone {smooth:.4?}");
+    assert!(grains[2] > 0.4 * grains[0] && grains[3] > 0.2 * grains[0], "{grains:.4?}");
+    assert!(grains[2] > 2.0 * smooth[0] && grains[3] > 2.0 * smooth[1], "{grains:.4?}, canopy alone {smooth:.4?}");
+}
+
+#[test]
 fn a_forest_of_several_populations_has_one_light_near_and_far() {
     let mut planet = (*covered_by("Broadleaf tree")).clone();
     let tall = planet.life[0].clone();

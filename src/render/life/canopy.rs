@@ -98,17 +98,17 @@ impl CanopyRows {
             (rows[SHORE][2], rows[CHANNEL][3]) = (shore_m(population), f64::from(channel));
             Some(Shown { biomes: population.biomes.clone(), texels: texels(rows) })
         });
-        let layers = layers(scenery, populations(body)).zip(&scenery.reach_m).enumerate();
-        let layers = layers.filter_map(|(index, ((population, layer), reach_m))| {
-            Some((population, layer?, *reach_m, planting(index, population)?))
+        let layers = layers(scenery, populations(body)).enumerate();
+        let layers = layers.filter_map(|(index, (population, layer))| {
+            Some((population, layer?, scenery.thinning(index), planting(index, population)?))
         });
-        let layers = layers.map(|(population, layer, reach_m, (channel, is_planted))| {
+        let layers = layers.map(|(population, layer, thinning, (channel, is_planted))| {
             let ([r, g, b], [side_r, side_g, side_b], cover) = (layer.color, layer.side_color, &layer.cover);
             let (fallen, littered) = layer.litter;
             let [ground, climate] = rules(population);
             let rows = [
                 [r, g, b, layer.top],
-                [layer.side, cover.sky[0], cover.sky[1], reach_m],
+                [layer.side, cover.sky[0], cover.sky[1], thinning.reach_m],
                 ground,
                 climate,
                 [layer.width_m, population.clumping, shore_m(population), layer.casting],
@@ -116,7 +116,7 @@ impl CanopyRows {
                 [cover.sun[1][0], cover.sun[1][1], cover.sun[2][0], cover.sun[2][1]],
                 [fallen[0], fallen[1], fallen[2], littered],
                 [layer.through[0], layer.through[1], layer.through[2], f64::from(channel)],
-                [side_r, side_g, side_b, 0.0],
+                [side_r, side_g, side_b, if thinning.full_m.is_finite() { thinning.full_m } else { 0.0 }],
             ];
             Layer {
                 biomes: population.biomes.clone(),

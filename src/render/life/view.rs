@@ -6,7 +6,8 @@ use super::material::Material;
 use super::{CASCADES, Cascades, LifeModels, canopy};
 use crate::life::Model;
 use crate::life::form::LEVELS;
-use crate::life::scenery::{SceneryCell, SceneryObject, share_at};
+use crate::life::scenery::{SceneryCell, SceneryObject};
+use crate::life::thinning::Thinning;
 use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::slope_axis;
 use crate::lod::{Culling, Quality, View};
@@ -31,7 +32,9 @@ pub(super) struct Instance {
     place: [u16; 2],
     layer: u16,
     axis: u16,
-    neighbours: f32,
+    neighbours: u16,
+    wider: u8,
+    rise: i8,
     material: u8,
     sunk: u8,
     width_cm: u16,
@@ -65,8 +68,13 @@ pub(crate) struct LifeView {
 
 /// Variants of a form.
 const VARIANTS: usize = Form::VARIANTS as usize;
-/// Share of its size over which an object grows where it begins to be drawn.
-const GROWTH: f64 = 0.12;
+/// Steps of the codes of an instance: of the areas of neighbours from 0 on, of the octaves of a widening, and of a rise
+/// of the ground.
+const NEIGHBOURS_STEP: f32 = 1.0 / 4096.0;
+const WIDER_STEP: f64 = 1.0 / 64.0;
+const RISE_STEP: f64 = 1.0 / 64.0;
+/// Finest level of detail that the width of an object alone asks for.
+const WIDE_LEVEL: usize = LEVELS - 2;
 /// Layer of an object without a horizon tile.
 const NO_LAYER: u16 = u16::MAX;
 
@@ -128,8 +136,10 @@ impl LifeView {
             let (Some((population, level_px)), Some(Some(model))) = (known, scenery.models.get(index)) else {
                 continue;
             };
+            let thinning = scenery.thinning(index);
             // The wind moves the tips aside.
-            let reach = model.reach + population.sway;
+            let narrow = model.reach + population.sway;
+            let reach = narrow * thinning.widest();
             let is_seen = culling.sees_sphere(cell.center_planet_m, cell.radius_m(reach));
             let casts = cascades.is_some_and(|cascades| cascades.reaches(cell, reach, drawn.eye_m));
             if !(is_seen || casts) {
@@ -143,11 +153,10 @@ impl LifeView {
             let among = among.get(index).copied().unwrap_or_default();
             let seed = made.get(index).map_or(population.seed, |made| made.seed);
             let hidden = body.hidden.map(|hidden| hidden.of_seed(seed)).unwrap_or_default();
-            let look = Look { population, shade, axis: axis_code(cell.id), among };
-            let reach_m = scenery.reach_m.get(index).copied().unwrap_or(0.0);
+            let look = Look { population, shade, axis: axis_code(cell.id), among, thins: thinning.full_m.is_finite() };
             for object in cell.objects.iter().filter(|object| !hidden.holds(object.id)) {
-                let Some(shown) = drawn.shown(object, reach_m, level_px) else { continue };
-                let is_seen = is_seen && culling.sees_sphere(object.foot_planet_m, reach * shown.size_m);
+                let Some(shown) = drawn.shown(object, thinning, level_px) else { continue };
+                let is_seen = is_seen && culling.sees_sphere(object.foot_planet_m, narrow * shown.wider * shown.size_m);
                 let casts_into = |cascade: &usize| casts && drawn.casts(*cascade, &shown);
                 if !is_seen && !(0..CASCADES).any(|cascade| casts_into(&cascade)) {
                     continue;
@@ -209,6 +218,8 @@ struct Drawn<'a> {
 struct Shown {
     rel_m: DVec3,
     size_m: f64,
+    /// Factor on its width.
+    wider: f64,
     level: usize,
 }
 
@@ -219,16 +230,22 @@ impl<'a> Drawn<'a> {
     }
 
     /// How an object is shown; None where it has thinned out. `level_px`: those of its model.
-    fn shown(&self, object: &SceneryObject, reach_m: f64, level_px: &[f64; LEVELS - 1]) -> Option<Shown> {
+    fn shown(&self, object: &SceneryObject, thinning: Thinning, level_px: &[f64; LEVELS - 1]) -> Option<Shown> {
         let rel_m = object.foot_planet_m - self.eye_m;
         let away_m = rel_m.length();
-        // The last objects of a distance grow from nothing.
-        let share = (1.0 + GROWTH) * share_at(away_m, reach_m);
-        let grown = ((share - f64::from(object.rank)) / GROWTH).clamp(0.0, 1.0);
+        let grown = thinning.grown(object.rank.into(), away_m);
+        if grown <= 0.0 {
+            return None;
+        }
         let size_m = f64::from(object.size_m) * grown;
-        let pixels = size_m / (away_m.max(0.1) * self.pixel_rad);
-        let level = level_px.iter().position(|least| pixels > *least).unwrap_or(LEVELS - 1);
-        (grown > 0.0).then_some(Shown { rel_m, size_m, level })
+        let pixel_m = away_m.max(0.1) * self.pixel_rad;
+        let pixels = size_m / pixel_m;
+        let sine = (rel_m.dot(object.foot_planet_m) / (away_m * object.foot_planet_m.length()).max(0.1)).abs();
+        let wider = thinning.widening(away_m, f64::from(object.size_m) / pixel_m, sine);
+        let level_of = |pixels: f64| level_px.iter().position(|least| pixels > *least).unwrap_or(LEVELS - 1);
+        // Wide blades of a coarse level would be seen as such.
+        let level = level_of(pixels).min(level_of(pixels * wider).max(WIDE_LEVEL));
+        Some(Shown { rel_m, size_m, wider, level })
     }
 
     /// Whether an object casts a shadow into a cascade.
@@ -283,6 +300,8 @@ struct Look<'a> {
     shade: Option<Shade>,
     axis: u16,
     among: Among,
+    /// Whether only objects of low rank may be there.
+    thins: bool,
 }
 
 impl Look<'_> {
@@ -296,8 +315,8 @@ impl Look<'_> {
         let population = self.population;
         let [first, second] = population.colors().map(root);
         let sway = (population.sway.clamp(0.0, 0.5) * 510.0).round() as u8;
-        // Any number that differs from object to object.
-        let phase = (object.rank * 255.0) as u8;
+        // Any number that differs from object to object: ranks do not where only the lowest are there.
+        let phase = if self.thins { (object.id >> 32) as u8 } else { (object.rank * 255.0) as u8 };
         let signed = |part: f32| (part.clamp(-1.0, 1.0) * 32767.0).round() as i16;
         let at =
             |part: f32, corner: f64, width: f64| ((corner + f64::from(part) * width).clamp(0.0, 1.0) * 65535.0) as u16;
@@ -313,7 +332,9 @@ impl Look<'_> {
             place,
             layer: self.shade.as_ref().map_or(NO_LAYER, |shade| shade.at.layer as u16),
             axis: self.axis,
-            neighbours: self.among.neighbours,
+            neighbours: (self.among.neighbours / NEIGHBOURS_STEP).round() as u16,
+            wider: (shown.wider.max(1.0).log2() / WIDER_STEP).round() as u8,
+            rise: (object.rise_aside(shown.rel_m) / RISE_STEP).round() as i8,
             material: Material::of(&population.form) as u8,
             sunk: (population.sunk.clamp(0.0, 1.0) * 255.0).round() as u8,
             width_cm: (self.among.width_m * 100.0).min(65535.0) as u16,

@@ -22,8 +22,8 @@ use crate::giant;
 use crate::life::canopy;
 use crate::life::form::cover;
 use crate::life::planting_map;
-use crate::life::scenery::FULL_SHARE;
 use crate::life::suitability;
+use crate::life::thinning::{FULL_SHARE, WIDEST, WIDEST_PX, WIDEST_SINES};
 use crate::lod::horizon::AZIMUTHS;
 use crate::lod::morph::COARSEST_MORPHING;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VERTICES, Vertex};
@@ -97,6 +97,9 @@ pub(crate) fn text() -> String {
         ("SOFT_M", &suitability::SOFT_M),
         ("SOFT_C", &suitability::SOFT_C),
         ("FULL_SHARE", &FULL_SHARE),
+        ("WIDEST", &WIDEST),
+        ("WIDEST_SINES", &WIDEST_SINES),
+        ("WIDEST_PX", &WIDEST_PX),
         ("COVER_EYES_DEG", &cover::EYES_DEG.map(f64::from)),
         ("COVER_SUNS_DEG", &cover::SUNS_DEG.map(f64::from)),
         ("LEAF_SOFT", &cover::LEAF_SOFT.map(f64::from)),
