@@ -70,7 +70,7 @@ pub(super) fn sastrugi() -> Vec<Spot> {
             let tail = step(0.62, -0.30, along);
             let flank = (1.0 - (aside / (0.42 - 0.22 * along)).powi(2)).max(0.0);
             let tongue = nose * tail * flank * f32::from(cell.own[0] < 0.75);
-            height += 0.10 / period * tongue * (0.5 + cell.own[1]);
+            height += 0.06 / period * tongue * (0.5 + cell.own[1]);
             edge = edge.max(nose * (1.0 - nose) * 4.0 * flank);
         }
         let grains = grain(at, 418);
