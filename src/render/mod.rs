@@ -16,8 +16,8 @@
 //!   scene
 //! - `caster`: things of a game that cast shadows
 //! - `photo`: pictures of any size, in tiles, of many samples, through a lens
-//! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, the tiles `noise_tile` and `border_tile`, and the `patterns` of
-//!   the ground
+//! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, the tiles `noise_tile` and `border_tile`, and the `patterns`
+//!   of the ground
 //! - `uniform_groups`, `uniforms`, `shared`, `wgsl`: what Rust and WGSL share, from one source; [`shaders`]: includes,
 //!   checks, hot reload
 //! - `worlds`: the bodies of a system around a camera: places, lights, points
