@@ -109,6 +109,11 @@ fn heat(seen: Seen, period_m: f32, glow: f32) -> f32 {
     return 2.0 * smoothstep(0.35, 1.65, sum);
 }
 
+// Distance in periods over which the finer scale fades, and up to which the broader one, this many times as wide, comes.
+const FINE_PERIODS: vec2f = vec2f(3.0, 5.0);
+const BROAD_PERIODS: f32 = 14.0;
+const BROAD: f32 = 5.3;
+
 // Parts of the ground show a pattern with a shift of their own, so that no period is seen. Where two parts meet, both
 // shifts are mixed: the share of the second is 0 in most places.
 struct Shifts {
@@ -126,7 +131,7 @@ const SHIFT_SEAM: f32 = 0.16;
 fn shift_of(part: f32) -> vec2f { return unit_from_hash(hash3(vec3u(u32(part) + 1u, 7u, 19u))).xy; }
 
 fn shifts_at(seen: Seen, period_m: f32) -> Shifts {
-    let tiles = max(round(1024.0 / (SHIFT_PERIODS * period_m)), 1.0);
+    let tiles = max(round(WRAP_M / (SHIFT_PERIODS * period_m)), 1.0);
     let at = (body.eye_wrap_m + seen.rel_m) * (tiles / 1024.0);
     let lod = max(log2(seen.footprint_m * tiles * (NOISE_TILE_SIDE / 1024.0)), 0.0);
     let part = SHIFTS * textureSampleLevel(noise_tile, repeated, at.yzx, lod).g;
@@ -162,11 +167,18 @@ fn pattern_of(id: i32, layer: i32, seen: Seen) -> Pattern {
     let turn = fract(frame.time_secs * size.z / (0.5 * size.x));
 
     let planes = plane_shares(seen.n);
-    // The finer scale is for the ground at one's feet; it also hides the repetition of the coarser scale.
-    let scales = select(1u, 2u, frame.pattern_quality > 0.0 && lod < 7.0);
+    // A second scale: a finer one for the ground at one's feet, and farther away a broader one, which is still seen
+    // where the pattern itself has become its mean. Both go by distance, so that a picture of more pixels has the same.
+    let away = length(seen.rel_m) / size.x;
+    let is_broad = away > FINE_PERIODS.y;
+    let second = 0.5 * select(
+        1.0 - smoothstep(FINE_PERIODS.x, FINE_PERIODS.y, away), smoothstep(FINE_PERIODS.y, BROAD_PERIODS, away), is_broad,
+    );
+    let second_m = select(glow.w, WRAP_M / max(round(WRAP_M / (BROAD * size.x)), 1.0), is_broad);
+    let scales = select(1u, 2u, frame.pattern_quality > 0.0 && lod < select(7.0, 8.5, is_broad) && second > 0.0);
     let is_low = frame.pattern_quality == 0.0;
     let most_steps = select(2u << u32(frame.pattern_quality), select(1u, 2u, lod < LOW_TAPS_LOD), is_low);
-    let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, most_steps);
+    let steps = taps_along(seen, select(size.x, glow.w, scales == 2u && !is_broad) / PATTERN_SIDE, most_steps);
     let tap_width = select(1.0, select(TAP_WIDTH, LOW_TAP_WIDTH, is_low), steps > 1u || is_low) / f32(steps);
     let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);
     let copies = axes * scales * steps;
@@ -180,11 +192,11 @@ fn pattern_of(id: i32, layer: i32, seen: Seen) -> Pattern {
     var coarse = vec3f(0.0);
     for (var tap = 0u; tap < taps; tap++) {
         let axis = shown_axis(planes, tap % axes);
-        let is_fine = (tap / axes) % scales == 1u;
+        let is_second = (tap / axes) % scales == 1u;
         let step = (tap / (axes * scales)) % steps;
-        let is_second = tap >= copies;
+        let is_reset = tap >= copies;
         var weight = planes[axis];
-        let phase = fract(turn + select(0.0, 0.5, is_second));
+        let phase = fract(turn + select(0.0, 0.5, is_reset));
         if flows { weight *= 1.0 - abs(2.0 * phase - 1.0); }
         weight /= f32(steps);
         let carried_m = select(vec3f(0.0), flow_m * (phase - 0.5), flows);
@@ -196,9 +208,9 @@ fn pattern_of(id: i32, layer: i32, seen: Seen) -> Pattern {
         var p = projected(body.eye_wrap_m + seen.rel_m - carried_m, axis);
         p += long_m * tap_place(step, steps);
         var period_m = size.x;
-        if is_fine {
-            p = rotated(p);
-            period_m = glow.w;
+        if is_second {
+            if !is_broad { p = rotated(p); }
+            period_m = second_m;
         }
         let level = log2(max(wide_m, 1e-6) * PATTERN_SIDE / period_m);
         let at = p / period_m;
@@ -211,11 +223,11 @@ fn pattern_of(id: i32, layer: i32, seen: Seen) -> Pattern {
             s = vec4f(0.5 + contrast * (mix(s.xyz, other_s.xyz, shifts.share) - 0.5), mix(s.w, other_s.w, shifts.share));
         }
         var tilt = s.xy - 0.5;
-        if is_fine { tilt = rotated_back(tilt); }
-        let strength = weight * select(1.0, 0.5, is_fine);
+        if is_second && !is_broad { tilt = rotated_back(tilt); }
+        let strength = weight * select(1.0, second, is_second);
         tint += strength * (2.0 * t.rgb - 1.0);
         slope += strength * unprojected(tilt, axis);
-        if !is_fine { coarse += weight * vec3f(t.a, s.zw); }
+        if !is_second { coarse += weight * vec3f(t.a, s.zw); }
     }
     out.tint = max(1.0 + tint * size.y, vec3f(0.0));
     out.slope = slope * (2.0 * PATTERN_STEEPEST * size.y);

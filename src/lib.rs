@@ -63,7 +63,6 @@ pub mod life;
 pub mod lod;
 #[cfg(any(feature = "bake", feature = "render"))]
 mod made;
-#[cfg(any(feature = "bake", feature = "render"))]
 mod noise_tile;
 pub mod planet;
 pub mod rings;

@@ -1,7 +1,6 @@
 //! A tiling cube of noise with mip levels: red is billowy (clouds), green is fractal (ground). Both are distributed
 //! evenly over 0..1, so that a threshold leaves a known share. Every mip level keeps the mean.
 
-#[cfg(feature = "bake")]
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -27,7 +26,6 @@ impl NoiseTile {
     }
 
     /// Green at a point in periods, as the GPU samples it: trilinear, and linear between mip levels. `lod`: 0 or more.
-    #[cfg(feature = "bake")]
     pub(crate) fn ground_at(&self, point: DVec3, lod: f64) -> f64 {
         let last = self.0.len() - 1;
         let lod = lod.min(last as f64);
@@ -37,7 +35,6 @@ impl NoiseTile {
         if share > 0.0 { finer + (self.level_at(point, level + 1) - finer) * share } else { finer }
     }
 
-    #[cfg(feature = "bake")]
     fn level_at(&self, point: DVec3, level: usize) -> f64 {
         let side = SIDE >> level;
         let at = (point - point.floor()) * side as f64 - 0.5;

@@ -9,7 +9,7 @@ use crate::life::{Canopies, Canopy};
 use crate::sea::{Column, WaterSurface, Waves};
 use crate::sphere::LatLon;
 use crate::sphere::geo::east_north;
-use crate::terrain::{River, Sample, Terrain};
+use crate::terrain::{GroundMaterial, GroundMaterials, River, Sample, Terrain};
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -49,11 +49,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::seconds)]
     time: f64,
     /// Print a JSON object: height_m, slope_deg, curvature (-1 to 1, below 0 in hollows), normal, temperature_c,
-    /// precipitation_mm (a year), temperature and moisture (0 to 1, the axes of the biome table), biome, canopy_cover
-    /// (0 to 1), canopy_height_m, populations (objects per_hectare), layers, water_level_m, water_surface_m (of the
-    /// sea, with its waves), wave_height_m (significant), river, lake, bank_m (distance from water), basin, wind_m_s
-    /// (to the east and to the north), rain_mm (a year), plate, cloud_cover, middle_cover, veil_cover and fog_cover (0
-    /// to 1)
+    /// precipitation_mm (a year), temperature and moisture (0 to 1, the axes of the biome table), biome, material
+    /// (the pattern of the ground, whether of a patch or of the rock of steep ground), canopy_cover (0 to 1),
+    /// canopy_height_m, populations (objects per_hectare), layers, water_level_m, water_surface_m (of the sea, with
+    /// its waves), wave_height_m (significant), river, lake, bank_m (distance from water), basin, wind_m_s (to the
+    /// east and to the north), rain_mm (a year), plate, cloud_cover, middle_cover, veil_cover and fog_cover (0 to 1)
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -92,13 +92,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 pub(super) struct Moment {
     time_secs: f64,
     canopies: Canopies,
+    materials: GroundMaterials,
     clouds: Option<CloudField>,
 }
 
 impl Moment {
     fn new(terrain: &Terrain, time_secs: f64) -> Self {
         let canopies = Canopies::new(terrain);
-        Self { time_secs, canopies, clouds: terrain.planet().clouds.as_ref().map(|_| CloudField::new(terrain)) }
+        let clouds = terrain.planet().clouds.as_ref().map(|_| CloudField::new(terrain));
+        Self { time_secs, canopies, materials: GroundMaterials::new(terrain), clouds }
     }
 
     fn cover(&self, dir: DVec3) -> Option<CloudCover> {
@@ -121,6 +123,17 @@ impl Moment {
     }
 }
 
+fn material_name(material: &GroundMaterial) -> String {
+    let place = if material.is_rock {
+        " (rock of steep ground)"
+    } else if material.is_patch {
+        " (patch)"
+    } else {
+        ""
+    };
+    format!("{}{place}", material.detail.name())
+}
+
 fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
     terrain.planet().biomes.palette.get(sample.biome).map_or("", |biome| biome.name.as_str())
 }
@@ -134,6 +147,7 @@ pub(super) fn everything(terrain: &Terrain, dir: DVec3, time_secs: f64) -> Value
 pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], moment: &Moment) -> Value {
     let clouds = moment.cover(dir);
     let canopy = moment.canopies.at(dir, sample);
+    let material = moment.materials.at(dir, sample);
     let populations = moment.populations(terrain, dir, sample).into_iter();
     let sea = moment.sea(terrain, dir, sample);
     let river = sample.river.map(|river| {
@@ -159,6 +173,7 @@ pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: 
         "precipitation_mm": sample.precipitation_mm,
         "moisture": sample.moisture,
         "biome": biome_name(terrain, sample),
+        "material": { "detail": material.detail.name(), "patch": material.is_patch, "rock": material.is_rock },
         "canopy_cover": canopy.cover,
         "canopy_height_m": canopy.height_m,
         "populations": populations.map(|(name, n)| json!({ "name": name, "per_hectare": n })).collect::<Vec<_>>(),
@@ -204,6 +219,7 @@ fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], mom
         format!("temperature  {:.1} °C ({:.3})", sample.temperature_c, sample.temperature),
         format!("moisture     {:.3} ({:.0} mm a year)", sample.moisture, sample.precipitation_mm),
         format!("biome        {}", biome_name(terrain, sample)),
+        format!("material     {}", material_name(&moment.materials.at(dir, sample))),
     ];
     let populations = moment.populations(terrain, dir, sample);
     if !populations.is_empty() {

@@ -5,6 +5,7 @@ use super::life::{CANOPY_ROWS, CanopyRows};
 use super::{gpu, patterns};
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
 use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
+use crate::terrain::material;
 
 /// Columns of the parameters: the palette, then the rock that biomes share, the surface rules, and the population whose
 /// density is shown.
@@ -20,12 +21,8 @@ pub(crate) const CANOPY: usize = ROWS;
 pub(crate) const SHOWN_ROW: usize = ROWS + CANOPY_ROWS;
 const ALL_ROWS: usize = SHOWN_ROW + 1;
 
-/// Lengths in metres by which positions are wrapped before they reach the shaders. Periods of repeating patterns divide
-/// them.
+/// Length in metres by which positions are wrapped before they reach the shaders. Periods of patterns divide it.
 pub(crate) const WRAP_M: f64 = 1024.0;
-pub(crate) const WRAP_FAR_M: f64 = 1_048_576.0;
-/// Features of the patch noise are about a quarter of its tile in size.
-const PATCHES_PER_TILE: f64 = 4.0;
 /// Period of a pattern's finer scale as a share of the coarser one. The finer scale is rotated by the angle of a 3-4-5
 /// triangle. Its period divides [`WRAP_M`] / [`TURN`], so that the rotated pattern repeats after [`WRAP_M`], too.
 const FINE: f64 = 0.31;
@@ -121,9 +118,8 @@ fn numbers(biome: &Biome, biomes: &Biomes, kinds: &[Detail]) -> [[f64; 4]; ROWS]
     let whole = |length: f64, parts: f64, size: f64| length / parts / (length / parts / size).round().max(1.0);
     let size_m = whole(WRAP_M, 1.0, biome.detail_m);
     let fine_m = whole(WRAP_M, TURN, FINE * size_m);
-    let patch_m = whole(WRAP_FAR_M, 1.0, PATCHES_PER_TILE * biome.patch_m);
+    let patch_m = material::patch_tile_m(biome);
     let layer = |kind: Detail| kinds.iter().position(|known| *known == kind).map_or(-1.0, |layer| layer as f64);
-    let patch_detail = if biome.patch_detail == Detail::None { biome.detail } else { biome.patch_detail };
     let cosine = |degrees: f64| degrees.to_radians().cos();
     let [into, from, to] = biomes.steep_rule(biome).map_or([-1.0, 0.0, 0.0], |rule| {
         [rule.into.map_or(ROCK, |index| index) as f64, cosine(rule.from_deg), cosine(rule.to_deg)]
@@ -136,7 +132,7 @@ fn numbers(biome: &Biome, biomes: &Biomes, kinds: &[Detail]) -> [[f64; 4]; ROWS]
         [size_m, biome.detail_strength, biome.flow_m_s, biome.glow],
         four(biome.glow_color, fine_m),
         [into, from, to, 0.0],
-        [layer(biome.detail), layer(patch_detail), 0.0, 0.0],
+        [layer(biome.detail), layer(biome.detail_of_patches()), 0.0, 0.0],
     ]
 }
 

@@ -25,10 +25,18 @@ pub(crate) struct CompiledBiomes {
     rows: usize,
     /// The biome of each cell, row by row; cells whose key the palette lacks have the first biome.
     cells: Vec<usize>,
-    /// For each biome, the biome of its steep ground.
-    steep: Vec<Option<Rule>>,
+    /// For each biome, what takes the place of its steep ground.
+    steep: Vec<Option<Steep>>,
     beach: Option<Beach>,
     snow: Option<Snow>,
+}
+
+/// The biome of steep ground, or the rock that biomes share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Steep {
+    into: Option<usize>,
+    /// Cosine of the slope beyond which it begins.
+    cosine: f64,
 }
 
 /// A biome that stands in for another beyond a slope.
@@ -73,7 +81,7 @@ impl CompiledBiomes {
         let around = |deg: f64, soft_deg: f64| middle(deg - soft_deg, deg + soft_deg);
         let steep = biomes.palette.iter().map(|biome| {
             let rule = biomes.steep_rule(biome)?;
-            Some(Rule { into: rule.into?, cosine: middle(rule.from_deg, rule.to_deg) })
+            Some(Steep { into: rule.into, cosine: middle(rule.from_deg, rule.to_deg) })
         });
         let beach = (biomes.beach_m > 0.0).then(|| biomes.index_of(biomes.beach_key)).flatten();
         let snow = biomes.snow.then(|| biomes.index_of(biomes.snow_key)).flatten();
@@ -95,11 +103,13 @@ impl CompiledBiomes {
         }
     }
 
-    /// The cell of the biome table (column and row) and the biome at a point with this climate.
-    pub(crate) fn at(&self, dir_planet: DVec3, climate: &PointClimate, site: Site) -> ([usize; 2], usize) {
+    /// The cell of the biome table (column and row), the biome at a point with this climate, and whether the rock that
+    /// biomes share is in its place.
+    pub(crate) fn at(&self, dir_planet: DVec3, climate: &PointClimate, site: Site) -> ([usize; 2], usize, bool) {
         let cell = self.cell(dir_planet, climate.moisture, climate.row);
         let of_table = self.cells.get(cell[1] * self.columns + cell[0]).copied().unwrap_or(0);
-        (cell, self.by_rules(of_table, site))
+        let (biome, is_rock) = self.by_rules(of_table, site);
+        (cell, biome, is_rock)
     }
 
     fn cell(&self, dir_planet: DVec3, moisture: f64, row: f64) -> [usize; 2] {
@@ -111,39 +121,39 @@ impl CompiledBiomes {
         [cell(moisture, self.columns, offset[0]), cell(1.0 - row, self.rows, offset[1])]
     }
 
-    /// The biome by the surface rules. The rock of steep ground that all biomes share is no biome.
-    fn by_rules(&self, biome: usize, site: Site) -> usize {
-        let mut biome = biome;
-        if let Some(rule) = self.steep.get(biome).copied().flatten()
-            && site.cosine < rule.cosine
+    /// The biome by the surface rules. The rock of steep ground that all biomes share is no biome: it is said apart.
+    fn by_rules(&self, biome: usize, site: Site) -> (usize, bool) {
+        let (mut biome, mut is_rock) = (biome, false);
+        if let Some(steep) = self.steep.get(biome).copied().flatten()
+            && site.cosine < steep.cosine
         {
-            biome = rule.into;
+            (biome, is_rock) = (steep.into.unwrap_or(biome), steep.into.is_none());
         }
         if let Some(Beach { rule, sea_m, reach_m }) = self.beach
             && (site.height_m - sea_m).abs() < reach_m
             && site.cosine > rule.cosine
         {
-            biome = rule.into;
+            (biome, is_rock) = (rule.into, false);
         }
         if let Some(Snow { rule, below_c }) = self.snow
             && site.temperature_c < below_c
             && site.cosine > rule.cosine
         {
-            biome = rule.into;
+            (biome, is_rock) = (rule.into, false);
         }
-        biome
+        (biome, is_rock)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Biome, Biomes, Steep, Table, Water};
+    use crate::planet::{Biome, Biomes, Steep as SteepGround, Table, Water};
 
     fn planet() -> Planet {
         let biome = |key| Biome { key, ..Biome::default() };
         let steep =
-            Biome { steep: Steep::Biome, steep_key: 'r', steep_from_deg: 20.0, steep_to_deg: 40.0, ..biome('a') };
+            Biome { steep: SteepGround::Biome, steep_key: 'r', steep_from_deg: 20.0, steep_to_deg: 40.0, ..biome('a') };
         let biomes = Biomes {
             palette: vec![steep, biome('r'), biome('b'), biome('s')],
             table: Table::uniform('a', 2, 2),
@@ -161,7 +171,7 @@ mod tests {
         let planet = planet();
         let biomes = CompiledBiomes::new(&planet);
         let at = |height_m, slope_deg: f64, temperature_c| {
-            biomes.by_rules(0, Site { height_m, cosine: libm::cos(slope_deg.to_radians()), temperature_c })
+            biomes.by_rules(0, Site { height_m, cosine: libm::cos(slope_deg.to_radians()), temperature_c }).0
         };
         assert_eq!(at(500.0, 10.0, 10.0), 0);
         assert_eq!(at(500.0, 45.0, 10.0), 1, "steep");
@@ -178,13 +188,14 @@ mod tests {
         let mut planet = planet();
         planet.biomes.beach_m = 0.0;
         planet.biomes.snow = false;
-        planet.biomes.palette[0].steep = Steep::Stays;
+        planet.biomes.palette[0].steep = SteepGround::Stays;
         let site = Site { height_m: 100.0, cosine: 0.36, temperature_c: -90.0 };
-        assert_eq!(CompiledBiomes::new(&planet).by_rules(0, site), 0);
+        assert_eq!(CompiledBiomes::new(&planet).by_rules(0, site), (0, false));
         planet.biomes.snow = true;
         planet.biomes.snow_key = '?';
-        planet.biomes.palette[0].steep = Steep::Rock;
-        assert_eq!(CompiledBiomes::new(&planet).by_rules(0, Site { cosine: 0.995, ..site }), 0);
+        planet.biomes.palette[0].steep = SteepGround::Rock;
+        assert_eq!(CompiledBiomes::new(&planet).by_rules(0, Site { cosine: 0.995, ..site }), (0, false));
+        assert_eq!(CompiledBiomes::new(&planet).by_rules(0, site), (0, true), "the rock that biomes share");
     }
 
     #[test]

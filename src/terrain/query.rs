@@ -50,6 +50,8 @@ pub struct Sample {
     pub cell: [usize; 2],
     /// Index of the biome in the palette: the cell's, or that of a surface rule for steep ground, beaches or snow.
     pub biome: usize,
+    /// Whether steep ground shows the rock that biomes share instead of the biome.
+    pub is_rock: bool,
     /// Surface of the sea, lake or river that stands or flows over the ground here.
     pub water_level_m: Option<f64>,
     /// The nearest river, if one is near.
@@ -335,7 +337,7 @@ impl Terrain {
             if wanted.biome {
                 let cosine = sample.normal_planet.dot(dir);
                 let site = Site { height_m: sample.height_m, cosine, temperature_c };
-                (sample.cell, sample.biome) = self.biomes.at(dir, &climate, site);
+                (sample.cell, sample.biome, sample.is_rock) = self.biomes.at(dir, &climate, site);
             }
         }
     }

@@ -6,6 +6,7 @@ use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Biome, Biomes, Detail, Fbm, Layer, Planet, Shape, Steep, Table};
 use tellus::render::DebugView;
 use tellus::sphere::LatLon;
+use tellus::terrain::GroundMaterials;
 use tellus::tiles::Surface;
 
 const PLACE: (f64, f64) = (37.0, 20.0);
@@ -228,6 +229,41 @@ fn patches_have_their_own_pattern() {
     let (without, with) = (rough_blocks(Detail::None), rough_blocks(Detail::Gravel));
     println!("rough: {without:.3} without, {with:.3} with gravel in the patches");
     assert!(without < 0.05 && with > 0.3 && with < 0.8, "{without} without, {with} with gravel in the patches");
+}
+
+/// The material of a query is the one in the picture: dark sand, and bright gravel in patches.
+#[test]
+fn the_material_of_a_query_is_the_one_in_the_picture() {
+    let mut gpu = gpu();
+    let patches =
+        Biome { patches: 0.4, patch_color: [0.6; 3], patch_m: 2.0, patch_detail: Detail::Gravel, ..grey(0.03) };
+    let planet = Arc::new(ball(Biome { detail: Detail::Beach, ..patches }));
+    let camera = camera(&planet, PLACE.0, PLACE.1, 6.0, 0.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let frame = frame(&surface, &planet, camera, PLACE);
+    gpu.draw_only(&frame, 1);
+    let ([width, height], light) = gpu.renderer.radiance().unwrap();
+    let mut brightness: Vec<f32> = light.iter().map(|pixel| pixel[1]).collect();
+    brightness.sort_by(f32::total_cmp);
+    let (dark, bright) = (brightness[brightness.len() / 10], brightness[brightness.len() * 9 / 10]);
+    assert!(bright > 5.0 * dark, "{dark} and {bright}");
+    let materials = GroundMaterials::new(&surface.terrain);
+    let (mut right, mut points, mut in_patches) = (0, 0, 0);
+    for (x, y) in (2..height).step_by(5).flat_map(|y| (2..width).step_by(5).map(move |x| (x, y))) {
+        let ndc = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
+        let dir = camera.ray_dir_planet(ndc(x, width), -ndc(y, height), view_of(&frame).aspect());
+        let away_m = surface.terrain.raycast(camera.position_planet_m, dir).unwrap();
+        let point = (camera.position_planet_m + dir * away_m).normalize();
+        let material = materials.at(point, &surface.terrain.sample(point));
+        assert_eq!(material.detail, if material.is_patch { Detail::Gravel } else { Detail::Beach });
+        let is_bright = light[(y * width + x) as usize][1] > (dark * bright).sqrt();
+        points += 1;
+        in_patches += u32::from(material.is_patch);
+        right += u32::from(is_bright == material.is_patch);
+    }
+    println!("{right} of {points} agree, {in_patches} in patches");
+    assert!(f64::from(right) > 0.94 * f64::from(points), "{right} of {points} agree");
+    assert!(f64::from(in_patches) > 0.2 * f64::from(points), "{in_patches} of {points} in patches");
 }
 
 /// Lava glows at night, and flowing lava moves.

@@ -149,7 +149,7 @@ pub(super) fn blue_ice() -> Vec<Spot> {
         let train = step(0.36, 0.16, bubble.nearest) * f32::from(bubble.own[0] < 0.5) * step(0.05, 0.5, clear.at(at));
         let hole = holes.at(at.at);
         let r = hole.nearest / (0.05 + 0.10 * hole.own[1]);
-        let melted = f32::from(hole.own[0] < 0.35) * step(1.0, 0.8, r);
+        let melted = f32::from(hole.own[0] < 0.12) * step(1.0, 0.7, r);
         let cup = scallops.at(bend.at(at));
         let bowl = 1.0 - step(0.0, 0.55, cup.border());
         let white = (0.55 * wide + 0.42 * fine + 0.3 * hair + 0.35 * train).min(1.0);
@@ -157,7 +157,7 @@ pub(super) fn blue_ice() -> Vec<Spot> {
         let color = between([0.86, 1.0, 1.06], [1.12, 1.02, 0.96], white);
         let light = 0.86 + 0.22 * (1.0 - deep) + 0.42 * white;
         Spot {
-            height: 0.008 * bowl - 0.014 * melted - 0.0015 * fine - 0.003 * wide,
+            height: 0.004 * bowl - 0.010 * melted - 0.0015 * fine - 0.003 * wide,
             tint: between(tinted(color, light), [0.5, 0.48, 0.46], 0.75 * melted),
             roughness: 0.3 * white - 0.16,
             glow: 0.0,

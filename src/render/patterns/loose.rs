@@ -157,7 +157,7 @@ pub(super) fn gravel() -> Vec<Spot> {
 /// Broken stones with flat faces, one on another.
 pub(super) fn scree() -> Vec<Spot> {
     let (dust, stains, rough) = (Drawn::new(12, 5, 251), Drawn::new(6, 3, 252), Drawn::new(34, 4, 253));
-    let sizes = [(56, 0.9, 254), (30, 0.8, 255), (16, 0.62, 256), (9, 0.42, 257), (5, 0.25, 258)].map(
+    let sizes = [(80, 0.9, 250), (50, 0.8, 254), (29, 0.6, 255), (17, 0.42, 256), (10, 0.26, 257), (6, 0.14, 258)].map(
         |(period, share, seed): (usize, f32, u32)| {
             let bend = Warp::new(2 * period, 0.05 / period as f32, seed + 50);
             (period as f32, share, bend, Cells::new(period, seed), Cells::new(2 * period, seed + 20))
@@ -174,14 +174,14 @@ pub(super) fn scree() -> Vec<Spot> {
             let bent = bend.at(at);
             let cell = cells.at(bent);
             let border = cell.border();
-            if cell.own[0] > *share || border < 0.045 {
+            if cell.own[0] > *share || border < 0.07 {
                 continue;
             }
             // A stone is a block with tilted faces; a finer lattice breaks its top.
             let face = facets.at(bent);
             let lean = |own: [f32; 3], [x, y]: [f32; 2]| (own[1] - 0.5) * x + (own[2] - 0.5) * y;
-            let top = 0.34 + 0.5 * cell.own[1] + 0.7 * lean(cell.own, cell.from) + 0.3 * lean(face.own, face.from);
-            let rim = step(0.045, 0.15, border);
+            let top = 0.26 + 0.34 * cell.own[1] + 0.55 * lean(cell.own, cell.from) + 0.3 * lean(face.own, face.from);
+            let rim = step(0.07, 0.20, border);
             let height = (top * (0.35 + 0.65 * rim) + 0.03 * rough.at(at)) * 0.8 / period;
             if height > spot.height {
                 let light = (0.7 + 0.55 * cell.own[2]) * (0.92 + 0.2 * (face.own[0] - 0.5)) * (0.7 + 0.3 * rim)

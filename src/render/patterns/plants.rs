@@ -123,28 +123,29 @@ pub(super) fn steppe() -> Vec<Spot> {
     canvas
 }
 
-/// Cushions of moss.
+/// Moss in soft swells, with cushions of shoots.
 pub(super) fn moss() -> Vec<Spot> {
-    let (bend, lumps, velvet) = (Warp::new(8, 0.045, 211), Drawn::new(9, 4, 212), Drawn::new(64, 3, 213));
-    let (cushions, stars, hues) = (Cells::new(7, 214), Cells::new(84, 215), Drawn::new(4, 4, 216));
+    let (bend, swells, velvet) = (Warp::new(7, 0.03, 211), Drawn::new(4, 5, 212), Drawn::new(64, 3, 213));
+    let (cushions, small) = (Cells::new(6, 214), Cells::new(13, 217));
+    let (stars, hues, dry) = (Cells::new(96, 215), Drawn::new(3, 5, 216), Drawn::new(9, 4, 218));
     each(|at| {
-        let cushion = cushions.at(bend.at(at));
-        let star = stars.at(at.at);
-        // Shoots stand side by side; the cushion is a dome of them.
+        let bent = bend.at(at);
+        let (cushion, tuft, star) = (cushions.at(bent), small.at(bent), stars.at(at.at));
+        // Cushions are domes of shoots that stand side by side; they grow into one another without an edge.
+        let dome = |cell: super::noise::Cell| {
+            (1.0 - (cell.nearest / (0.5 + 0.4 * cell.own[1])).powi(2)).max(0.0) * step(0.0, 0.35, cell.border())
+        };
+        let (dome, tuft) = (dome(cushion) * cushion.own[0], dome(tuft));
         let shoot = (1.0 - star.nearest / 0.62).max(0.0);
-        let dome = (1.0 - (1.0 - (cushion.border() / 0.45).min(1.0)).powi(2)).sqrt();
-        let gap = 1.0 - step(0.0, 0.10, cushion.border());
-        let hue = hues.at(at) + 0.9 * (cushion.own[2] - 0.5);
-        let color = between([0.92, 1.02, 0.78], [1.16, 1.0, 1.02], (0.5 + 0.7 * hue).clamp(0.0, 1.0));
-        let brown = step(0.55, 0.95, star.own[0]) * step(0.1, 0.6, hues.at(at));
-        let light =
-            (0.5 + 0.5 * dome) * (0.62 + 0.7 * shoot.powf(0.7)) * (0.9 + 0.3 * star.own[1]) + 0.1 * velvet.at(at);
+        let hue = 0.9 * hues.at(at) + 0.5 * (cushion.own[2] - 0.5) * dome;
+        let color = between([0.90, 1.02, 0.76], [1.20, 1.0, 1.02], (0.5 + 0.7 * hue).clamp(0.0, 1.0));
+        let brown = step(0.25, 0.75, dry.at(at) + 0.4 * (star.own[0] - 0.5));
+        let light = (0.74 + 0.14 * dome + 0.12 * tuft) * (0.66 + 0.6 * shoot.powf(0.7)) * (0.9 + 0.25 * star.own[1])
+            + 0.09 * velvet.at(at)
+            + 0.07 * swells.at(at);
         Spot {
-            height: 0.030 * dome * (0.6 + 0.6 * cushion.own[0])
-                + 0.005 * lumps.at(at)
-                + 0.0055 * shoot
-                + 0.0012 * velvet.at(at),
-            tint: tinted(between(color, [1.5, 0.95, 0.9], 0.6 * brown), light.max(0.1) * (1.0 - 0.45 * gap)),
+            height: 0.016 * swells.at(at) + 0.020 * dome + 0.008 * tuft + 0.0042 * shoot + 0.0010 * velvet.at(at),
+            tint: tinted(between(color, [1.35, 0.95, 0.9], 0.55 * brown), light.max(0.1)),
             roughness: 0.06 - 0.05 * shoot,
             glow: 0.0,
         }

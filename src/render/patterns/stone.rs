@@ -96,8 +96,8 @@ pub(super) fn basalt() -> Vec<Spot> {
 /// Crystals of feldspar, quartz and mica in rounded sheets.
 pub(super) fn granite() -> Vec<Spot> {
     let (bend, sheets, swells) = (Warp::new(2, 0.10, 311), Cells::new(2, 312), Drawn::new(2, 4, 313));
-    let (bend_grains, grains) = (Warp::new(40, 0.005, 314), Cells::new(52, 315));
-    let (bend_mica, mica) = (Warp::new(90, 0.004, 322), Cells::new(66, 316));
+    let (bend_grains, grains) = (Warp::new(80, 0.003, 314), Cells::new(108, 315));
+    let (bend_mica, mica) = (Warp::new(120, 0.002, 322), Cells::new(124, 316));
     let (rough, growth, specks, stains) =
         (Drawn::new(20, 4, 317), Drawn::new(4, 4, 318), Cells::new(26, 319), Drawn::new(3, 5, 320));
     each(|at| {
@@ -127,7 +127,7 @@ pub(super) fn granite() -> Vec<Spot> {
             height: 0.05 * sheet.own[1] + 0.05 * swells.at(at) + 0.02 * rim - 0.02 * crack
                 + 0.0035 * rough.at(at)
                 + 0.0012 * crystal.own[2],
-            tint: tinted(between(color, [1.0, 1.08, 0.82], 0.75 * lichen), light * (1.0 - 0.6 * crack)),
+            tint: tinted(between(color, [1.0, 1.08, 0.82], 0.75 * lichen), light * (1.0 - 0.4 * crack)),
             roughness: 0.08 * lichen - 0.16 * is_mica,
             glow: 0.0,
         }

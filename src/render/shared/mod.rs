@@ -11,7 +11,7 @@ pub(crate) use constants::*;
 pub use constants::{MAX_POINTS, MAX_SUNS};
 pub(crate) use structs::*;
 
-use super::biome_table::{CANOPY, ROCK, RULES, SHOWN, SHOWN_ROW, WRAP_FAR_M, WRAP_M};
+use super::biome_table::{CANOPY, ROCK, RULES, SHOWN, SHOWN_ROW, WRAP_M};
 use super::debug_view::DebugView;
 use super::horizon_pool;
 use super::life::{CANOPY_LAYER_ROWS, CANOPY_LAYERS, Material};
@@ -30,6 +30,7 @@ use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VE
 use crate::rings;
 use crate::sphere::cube::C_SQUARED;
 use crate::terrain::border::{self, OCTAVE_TURN};
+use crate::terrain::material::WRAP_FAR_M;
 use std::mem::offset_of;
 
 /// The text of `shared.wgsl`.

@@ -3,8 +3,9 @@
 use super::{Body, octave, wrapped};
 use crate::noise_tile::VARIATION_PERIODS_M;
 use crate::planet::{Planet, TableBlend, TableRows};
-use crate::render::biome_table::{WRAP_FAR_M, WRAP_M};
+use crate::render::biome_table::WRAP_M;
 use crate::terrain::border::{self, OCTAVE_TURN};
+use crate::terrain::material::WRAP_FAR_M;
 use glam::DVec3;
 
 /// Sets the climate of a planet and the shape of its biome table.
