@@ -7,6 +7,7 @@ use rayon::prelude::*;
 /// Texels along a side.
 pub(crate) const SIDE: usize = 64;
 /// Octaves of the macro variation of ground and ice, coarse to fine: their periods in metres.
+#[cfg(any(feature = "bake", feature = "render"))]
 pub(crate) const VARIATION_PERIODS_M: [f64; 8] = [2.6e6, 330e3, 41e3, 5100.0, 640.0, 80.0, 10.0, 1.25];
 
 /// The mip levels of the tile, the finest first: texels along x, then y, then z.
