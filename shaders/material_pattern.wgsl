@@ -109,7 +109,8 @@ fn heat(seen: Seen, period_m: f32, glow: f32) -> f32 {
     return 2.0 * smoothstep(0.35, 1.65, sum);
 }
 
-// Distance in periods over which the finer scale fades, and up to which the broader one, this many times as wide, comes.
+// Distances in periods over which the finer scale fades, and from there up to which the broader one comes, which is
+// this many times as wide.
 const FINE_PERIODS: vec2f = vec2f(3.0, 5.0);
 const BROAD_PERIODS: f32 = 14.0;
 const BROAD: f32 = 5.3;

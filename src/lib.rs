@@ -27,6 +27,7 @@
 //!
 //! - [`simd`]: instruction sets, chosen at run time
 //! - [`sphere`]: the globe as six squares; node addresses; latitude and longitude
+//! - `noise_tile`: the noise of patterns on the ground and of clouds, as the renderer samples it
 //! - [`planet`]: the preset's data, its parameters, loading and saving
 //! - [`system`]: several bodies: orbits, rotation, starlight
 //! - `world`: world maps: values for the whole globe, such as the distance to the coast
@@ -39,7 +40,6 @@
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`life`]: plants, stones and other objects on the ground: where they stand, and their meshes
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
-//! - `noise_tile`: the noise of patterns on the ground and of clouds, as the renderer samples it
 //! - `made`: what made a file, and whether it is whole: sets of files that are made part by part
 //! - `bake` (feature `bake`): maps and meshes of a planet in files
 //! - `capi` (feature `capi`): the C interface

@@ -57,7 +57,11 @@ impl GroundMaterials {
     pub fn new(terrain: &Terrain) -> Self {
         let planet = terrain.planet();
         let has_patches = planet.biomes.palette.iter().any(|biome| biome.patches > 0.0);
-        Self { biomes: planet.biomes.clone(), radius_m: planet.radius_m(), noise: has_patches.then(NoiseTile::new) }
+        Self {
+            biomes: planet.biomes.clone(),
+            radius_m: planet.radius_m(),
+            noise: has_patches.then(NoiseTile::of_ground),
+        }
     }
 
     /// The material at a point. `sample`: the sample in this direction, with its height and biome.
@@ -78,7 +82,7 @@ impl GroundMaterials {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Layer, Planet, Steep, Table, Water};
+    use crate::planet::{Fbm, Layer, Planet, Shape, Steep, Table};
     use crate::sphere::LatLon;
     use std::sync::Arc;
 
@@ -94,16 +98,15 @@ mod tests {
         };
         let table = Table::uniform(biome.key, 2, 2);
         let biomes = Biomes { palette: vec![biome], table, cliff_detail: Detail::Granite, ..Biomes::default() };
-        let layers = vec![Layer { amplitude_m: 3000.0, ..Layer::default() }];
-        let water = None::<Water>;
-        Terrain::try_new(Arc::new(Planet { biomes, layers, water, ..Planet::default() })).unwrap()
+        let shape = Shape::Fbm(Fbm { wavelength_km: 15.0, octaves: 6, ..Fbm::default() });
+        let layers = vec![Layer { amplitude_m: 3000.0, shape, ..Layer::default() }];
+        Terrain::try_new(Arc::new(Planet { biomes, layers, water: None, ..Planet::default() })).unwrap()
     }
 
     #[test]
     fn patches_have_their_share_and_steep_ground_has_rock() {
         let terrain = hills();
         let materials = GroundMaterials::new(&terrain);
-        let start_deg = terrain.planet().biomes.cliff_start_deg;
         let (mut patches, mut rocks, mut rest) = (0, 0, 0);
         for i in 0..20_000 {
             let i = f64::from(i);
@@ -116,13 +119,14 @@ mod tests {
                 (false, false) => Detail::Needles,
             };
             assert_eq!(material.detail, expected);
-            assert!(!material.is_rock || sample.slope_rad.to_degrees() > start_deg, "rock on {} rad", sample.slope_rad);
+            assert!(!material.is_rock || sample.slope_rad > 0.5, "rock on {} rad", sample.slope_rad);
             rocks += u32::from(material.is_rock);
             patches += u32::from(material.is_patch);
             rest += u32::from(!material.is_rock);
         }
         let share = f64::from(patches) / f64::from(rest);
-        assert!((share - 0.3).abs() < 0.02, "{patches} of {rest} in patches");
+        // Between texels the noise is nearer to its mean, so rare patches are a little rarer.
+        assert!((share - 0.3).abs() < 0.03, "{patches} of {rest} in patches");
         assert!(rocks > 20 && rest > 10_000, "{rocks} on rock, {rest} elsewhere");
     }
 
