@@ -15,6 +15,7 @@ pub(crate) struct NoiseTile(pub(crate) Vec<Vec<[f32; 2]>>);
 
 impl NoiseTile {
     /// Computes it.
+    #[cfg(any(feature = "bake", feature = "render"))]
     pub(crate) fn new() -> Self {
         let mut levels = vec![tile()];
         let mut side = SIDE;
@@ -61,6 +62,7 @@ impl NoiseTile {
 }
 
 /// Means of blocks of two by two by two texels.
+#[cfg(any(feature = "bake", feature = "render"))]
 fn halved(data: &[[f32; 2]], side: usize) -> Vec<[f32; 2]> {
     let half = side / 2;
     let mut out = Vec::with_capacity(half * half * half);
@@ -90,6 +92,7 @@ fn ground(p: [f32; 3]) -> f32 {
     gradient_noise(p, 6, 6) + 0.6 * gradient_noise(p, 12, 7) + 0.4 * gradient_noise(p, 24, 8)
 }
 
+#[cfg(any(feature = "bake", feature = "render"))]
 fn tile() -> Vec<[f32; 2]> {
     let raw: Vec<[f32; 2]> = (0..SIDE * SIDE * SIDE)
         .into_par_iter()
@@ -129,6 +132,7 @@ fn lattice(cell: [i32; 3], period: i32, seed: u32) -> [f32; 3] {
 }
 
 /// Distance to the nearest point of a jittered lattice, in cells (Worley, A cellular texture basis function, 1996).
+#[cfg(any(feature = "bake", feature = "render"))]
 fn cell_noise(p: [f32; 3], period: i32, seed: u32) -> f32 {
     let q = p.map(|x| x * period as f32);
     let base = q.map(|x| x.floor() as i32);
@@ -157,6 +161,7 @@ fn corners(p: [f32; 3], period: i32) -> impl Iterator<Item = ([i32; 3], f32, [f3
 }
 
 /// Value noise: smoothly interpolated lattice values, -1..1.
+#[cfg(any(feature = "bake", feature = "render"))]
 fn value_noise(p: [f32; 3], period: i32, seed: u32) -> f32 {
     corners(p, period).map(|(cell, weight, _)| weight * (2.0 * lattice(cell, period, seed)[0] - 1.0)).sum()
 }
