@@ -269,6 +269,14 @@ fn mixture_at(site: Site) -> Mixture {
     return sum;
 }
 
+// Whether a biome's own pattern is shown, and that of its patches. `patches`: share of the patches. Where both patterns
+// are the same there is one.
+fn shown_layers(layers: vec2i, patches: f32, is_low: bool) -> vec2<bool> {
+    if layers.x == layers.y { return vec2<bool>(true, false); }
+    if is_low { return vec2<bool>((patches < 0.5), (patches >= 0.5)); }
+    return vec2<bool>((patches < 0.98), (patches > 0.02));
+}
+
 // Patterns of the two strongest biomes; `share`: share of the second. Each is that of the biome or of its patches, and
 // both where patches end. Low quality draws the stronger of all.
 fn patterns_of(mixture: Mixture, share: f32, seen: Seen) -> array<Pattern, 2> {
@@ -282,13 +290,10 @@ fn patterns_of(mixture: Mixture, share: f32, seen: Seen) -> array<Pattern, 2> {
         if select(biome == 1 && share <= 0.01, biome != strongest, is_low) { continue; }
         let layers = pattern_layers(mixture.ids[biome]);
         let patches = mixture.patches[biome];
-        let is_patch = (i & 1) == 1;
-        // Where both are the same there is one.
-        let least = select(0.02, 0.5, is_low);
-        let own = layers.x == layers.y || patches < 1.0 - least;
-        if select(!own, layers.x == layers.y || (own && patches <= least), is_patch) { continue; }
+        let shown = shown_layers(layers, patches, is_low);
+        if !shown[i & 1] { continue; }
         let pattern = pattern_of(mixture.ids[biome], layers[i & 1], seen);
-        if !is_patch || !own {
+        if (i & 1) == 0 || !shown.x {
             out[biome] = pattern;
             continue;
         }

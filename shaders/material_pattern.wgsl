@@ -1,5 +1,5 @@
-// Patterns of the ground: a tiling texture for each kind, projected along three axes (triplanar), at two scales whose
-// periods never coincide, and advected downhill where the material flows. Layout of the texels:
+// Patterns of the ground: a tiling texture for each kind, projected along three axes (triplanar), at two scales,
+// shifted from part to part so that no period is seen, and advected downhill where the material flows. Layout of the texels:
 // src/render/patterns/arrays.rs and src/render/biome_table.rs.
 #include "uniforms.wgsl"
 #include "luts.wgsl"
@@ -41,6 +41,7 @@ fn share_by_height(a: Pattern, b: Pattern, share: f32) -> f32 {
     return mix(smoothstep(threshold - edge, threshold + edge, b.height - a.height), share, max(a.far, b.far));
 }
 
+// A pattern between two; `t`: share of the second.
 fn mixed_pattern(a: Pattern, b: Pattern, t: f32) -> Pattern {
     return Pattern(mix(a.tint, b.tint, t), mix(a.height, b.height, t), mix(a.slope, b.slope, t),
         mix(a.roughness, b.roughness, t), mix(a.glow, b.glow, t), mix(a.far, b.far, t), max(a.shown, b.shown));
@@ -133,8 +134,8 @@ fn shift_of(part: f32) -> vec2f { return unit_from_hash(hash3(vec3u(u32(part) + 
 
 fn shifts_at(seen: Seen, period_m: f32) -> Shifts {
     let tiles = max(round(WRAP_M / (SHIFT_PERIODS * period_m)), 1.0);
-    let at = (body.eye_wrap_m + seen.rel_m) * (tiles / 1024.0);
-    let lod = max(log2(seen.footprint_m * tiles * (NOISE_TILE_SIDE / 1024.0)), 0.0);
+    let at = (body.eye_wrap_m + seen.rel_m) * (tiles / WRAP_M);
+    let lod = max(log2(seen.footprint_m * tiles * (NOISE_TILE_SIDE / WRAP_M)), 0.0);
     let part = SHIFTS * textureSampleLevel(noise_tile, repeated, at.yzx, lod).g;
     let whole = floor(part);
     let share = smoothstep(0.5 - SHIFT_SEAM, 0.5 + SHIFT_SEAM, part - whole);

@@ -99,7 +99,7 @@ impl Grid {
         self.nodes_within(self.level, dir, radius_m)
     }
 
-    /// The same for nodes of another level.
+    /// Nodes of a level that touch a disc around a direction, `radius_m` along the sphere, in ascending order.
     pub(super) fn nodes_within(&self, level: u8, dir: DVec3, radius_m: f64) -> Vec<NodeId> {
         let reach_rad = radius_m / self.radius_m;
         let mut found = Vec::new();

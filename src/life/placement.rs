@@ -119,8 +119,8 @@ impl Placement {
         self.place_below(1.0, terrain, cells, soil, memory, placed);
     }
 
-    /// The same for objects of low rank alone: those below a limit, bit for bit those of the whole list. Others cost
-    /// little, since the rank of a candidate is known before anything else, and grows with what does not suit it.
+    /// Adds the objects of cells whose rank is below a limit, as [`Placement::place`] does, bit for bit. Objects
+    /// above it cost little: the rank of a candidate is known before its ground, and what does not suit it raises the rank.
     pub(super) fn place_below(
         &self,
         limit: f64,

@@ -1,7 +1,7 @@
 //! A biome, one kind of ground: colours, gloss, close-up pattern, steep ground, biome relief and glow.
 
 use super::Biomes;
-use super::param::{Domain, Stage, Unit, choice, linear, log, params};
+use super::param::{Choice, Domain, Stage, Unit, choice, linear, log, params};
 
 /// Period of a pattern in metres. It must stay below the length at which shaders wrap positions (`WRAP_M` in
 /// `render/biome_table.rs`).
@@ -139,7 +139,19 @@ params! {
     }
 }
 
+impl Detail {
+    /// Name of the pattern as presets have it.
+    pub fn name(self) -> &'static str {
+        self.names()[self.index()]
+    }
+}
+
 impl Biome {
+    /// Close-up pattern of the patches: their own, or that of the biome.
+    pub fn detail_of_patches(&self) -> Detail {
+        if self.patch_detail == Detail::None { self.detail } else { self.patch_detail }
+    }
+
     /// Whether the biome adds biome relief.
     pub fn has_relief(&self) -> bool {
         self.relief_m > 0.0
@@ -258,5 +270,18 @@ impl Biomes {
         let reliefs = Reliefs { columns, rows, cells: rows_of_cells.flatten().collect() };
         let any = reliefs.sizes_m().next().is_some();
         any.then_some(reliefs)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patches_without_a_pattern_have_that_of_the_biome() {
+        let biome = Biome { detail: Detail::Sand, ..Biome::default() };
+        assert_eq!(biome.detail_of_patches(), Detail::Sand);
+        assert_eq!(Biome { patch_detail: Detail::Salt, ..biome }.detail_of_patches(), Detail::Salt);
+        assert_eq!(Detail::RopeLava.name(), "RopeLava");
     }
 }

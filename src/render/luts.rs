@@ -239,18 +239,19 @@ impl Luts {
     ) {
         let (planet, keys) = (revision.planet(), revision.keys());
         let biome_key = (keys.materials(), marked.cloned(), canopies);
-        if self.biome_key.as_ref() != Some(&biome_key) {
-            let patterns = shared.patterns.with(device, queue, &patterns::kinds_of(&planet.biomes));
-            let marked = marked.map(|marked| &**marked);
-            let texels = BiomeTexels::new(&planet.biomes, patterns.kinds(), marked, &biome_key.2);
-            self.write_biomes(device, queue, shared, texels);
-            self.biome_key = Some(biome_key);
-        }
+        let is_stale = self.biome_key.as_ref() != Some(&biome_key);
+        let added = if is_stale { patterns::kinds_of(&planet.biomes) } else { Vec::new() };
         // Another body may have added kinds: the arrays without them are dropped once nobody holds them.
-        let patterns = shared.patterns.with(device, queue, &[]);
+        let patterns = shared.patterns.with(device, queue, &added);
         if patterns != self.patterns {
             self.patterns = patterns;
             self.bind(device, shared);
+        }
+        if is_stale {
+            let marked = marked.map(|marked| &**marked);
+            let texels = BiomeTexels::new(&planet.biomes, self.patterns.kinds(), marked, &biome_key.2);
+            self.write_biomes(device, queue, shared, texels);
+            self.biome_key = Some(biome_key);
         }
         if planet.atmosphere.is_some() {
             let sun = sun_radius_rad.to_bits();

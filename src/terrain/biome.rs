@@ -26,14 +26,14 @@ pub(crate) struct CompiledBiomes {
     /// The biome of each cell, row by row; cells whose key the palette lacks have the first biome.
     cells: Vec<usize>,
     /// For each biome, what takes the place of its steep ground.
-    steep: Vec<Option<Steep>>,
+    steep: Vec<Option<SteepGround>>,
     beach: Option<Beach>,
     snow: Option<Snow>,
 }
 
 /// The biome of steep ground, or the rock that biomes share.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Steep {
+struct SteepGround {
     into: Option<usize>,
     /// Cosine of the slope beyond which it begins.
     cosine: f64,
@@ -81,7 +81,7 @@ impl CompiledBiomes {
         let around = |deg: f64, soft_deg: f64| middle(deg - soft_deg, deg + soft_deg);
         let steep = biomes.palette.iter().map(|biome| {
             let rule = biomes.steep_rule(biome)?;
-            Some(Steep { into: rule.into, cosine: middle(rule.from_deg, rule.to_deg) })
+            Some(SteepGround { into: rule.into, cosine: middle(rule.from_deg, rule.to_deg) })
         });
         let beach = (biomes.beach_m > 0.0).then(|| biomes.index_of(biomes.beach_key)).flatten();
         let snow = biomes.snow.then(|| biomes.index_of(biomes.snow_key)).flatten();
@@ -148,12 +148,12 @@ impl CompiledBiomes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Biome, Biomes, Steep as SteepGround, Table, Water};
+    use crate::planet::{Biome, Biomes, Steep, Table, Water};
 
     fn planet() -> Planet {
         let biome = |key| Biome { key, ..Biome::default() };
         let steep =
-            Biome { steep: SteepGround::Biome, steep_key: 'r', steep_from_deg: 20.0, steep_to_deg: 40.0, ..biome('a') };
+            Biome { steep: Steep::Biome, steep_key: 'r', steep_from_deg: 20.0, steep_to_deg: 40.0, ..biome('a') };
         let biomes = Biomes {
             palette: vec![steep, biome('r'), biome('b'), biome('s')],
             table: Table::uniform('a', 2, 2),
@@ -188,12 +188,12 @@ mod tests {
         let mut planet = planet();
         planet.biomes.beach_m = 0.0;
         planet.biomes.snow = false;
-        planet.biomes.palette[0].steep = SteepGround::Stays;
+        planet.biomes.palette[0].steep = Steep::Stays;
         let site = Site { height_m: 100.0, cosine: 0.36, temperature_c: -90.0 };
         assert_eq!(CompiledBiomes::new(&planet).by_rules(0, site), (0, false));
         planet.biomes.snow = true;
         planet.biomes.snow_key = '?';
-        planet.biomes.palette[0].steep = SteepGround::Rock;
+        planet.biomes.palette[0].steep = Steep::Rock;
         assert_eq!(CompiledBiomes::new(&planet).by_rules(0, Site { cosine: 0.995, ..site }), (0, false));
         assert_eq!(CompiledBiomes::new(&planet).by_rules(0, site), (0, true), "the rock that biomes share");
     }

@@ -4,7 +4,6 @@
 
 use super::{Sample, Terrain};
 use crate::noise_tile::NoiseTile;
-use crate::planet::param::Choice;
 use crate::planet::{Biome, Biomes, Detail};
 use glam::DVec3;
 
@@ -16,20 +15,6 @@ const PATCHES_PER_TILE: f64 = 4.0;
 /// Period in metres of the noise that makes the patches of a biome.
 pub(crate) fn patch_tile_m(biome: &Biome) -> f64 {
     WRAP_FAR_M / (WRAP_FAR_M / (PATCHES_PER_TILE * biome.patch_m)).round().max(1.0)
-}
-
-impl Biome {
-    /// Close-up pattern of the patches: their own, or that of the biome.
-    pub fn detail_of_patches(&self) -> Detail {
-        if self.patch_detail == Detail::None { self.detail } else { self.patch_detail }
-    }
-}
-
-impl Detail {
-    /// Name of the pattern as presets have it.
-    pub fn name(self) -> &'static str {
-        self.names().get(self.index()).copied().unwrap_or_default()
-    }
 }
 
 /// The ground at a point, for footsteps, tyres and dust.
@@ -128,13 +113,5 @@ mod tests {
         // Between texels the noise is nearer to its mean, so rare patches are a little rarer.
         assert!((share - 0.3).abs() < 0.03, "{patches} of {rest} in patches");
         assert!(rocks > 20 && rest > 10_000, "{rocks} on rock, {rest} elsewhere");
-    }
-
-    #[test]
-    fn patches_without_a_pattern_have_that_of_the_biome() {
-        let biome = Biome { detail: Detail::Sand, ..Biome::default() };
-        assert_eq!(biome.detail_of_patches(), Detail::Sand);
-        assert_eq!(Biome { patch_detail: Detail::Salt, ..biome }.detail_of_patches(), Detail::Salt);
-        assert_eq!(Detail::RopeLava.name(), "RopeLava");
     }
 }

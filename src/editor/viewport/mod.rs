@@ -366,6 +366,9 @@ impl Viewport {
         let mut wanted = self.frozen.unwrap_or(view);
         wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
         let views = self.pane_views(valid, wanted, &ground);
+        if self.newest.as_ref().is_none_or(|newest| !Arc::ptr_eq(newest.planet(), valid)) {
+            Renderer::draw_patterns_ahead(valid);
+        }
         match Revision::try_after(valid.clone(), self.newest.as_ref()) {
             Ok(newest) => self.newest = Some(newest),
             Err(error) => log::error!("{error}"),

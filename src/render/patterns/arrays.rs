@@ -13,6 +13,7 @@ use super::noise::SIDE;
 use crate::planet::Detail;
 use crate::render::gpu;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Largest slope that is stored, rise over run.
@@ -77,7 +78,22 @@ impl PatternPool {
     }
 }
 
-/// The layer of a kind, drawn once in the process.
+/// Draws kinds on other threads, each once, so that the first frame that shows them does not wait as long.
+pub(super) fn draw_ahead(kinds: &[Detail]) {
+    /// A bit for each kind that somebody has asked for.
+    static ASKED: AtomicU64 = AtomicU64::new(0);
+    for &kind in kinds {
+        let bit = 1 << kind as u64;
+        if ASKED.fetch_or(bit, Ordering::Relaxed) & bit == 0 {
+            rayon::spawn(move || {
+                layer(kind);
+            });
+        }
+    }
+}
+
+/// The layer of a kind, drawn once in the process. Drawing it is the work of one thread: one that waited for others here
+/// could take a task that asks for the same layer, and would wait for itself.
 fn layer(kind: Detail) -> &'static Layer {
     static LAYERS: [OnceLock<Layer>; Detail::ALL.len()] = [const { OnceLock::new() }; Detail::ALL.len()];
     LAYERS[kind as usize].get_or_init(|| Layer::new(&draw(kind)))

@@ -1,7 +1,6 @@
 //! The canvas that patterns are drawn on: texels by a function, or strokes that cover one another by height.
 
 use super::noise::{SIDE, Texel, hash};
-use rayon::prelude::*;
 
 /// One texel of a pattern.
 #[derive(Clone, Copy, Default)]
@@ -17,8 +16,8 @@ pub(super) struct Spot {
 }
 
 /// A pattern by a function of the texel.
-pub(super) fn each(spot: impl Fn(Texel) -> Spot + Sync) -> Vec<Spot> {
-    (0..SIDE * SIDE).into_par_iter().with_min_len(16 * SIDE).map(|i| spot(Texel::new(i))).collect()
+pub(super) fn each(spot: impl Fn(Texel) -> Spot) -> Vec<Spot> {
+    (0..SIDE * SIDE).map(|i| spot(Texel::new(i))).collect()
 }
 
 /// The same factor on all channels.
@@ -36,6 +35,26 @@ pub(super) fn between(a: [f32; 3], b: [f32; 3], share: f32) -> [f32; 3] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
 }
 
+/// Height of a dome whose rim is at 0 and whose middle is at 1.
+pub(super) fn dome(inside: f32) -> f32 {
+    (inside * (2.0 - inside)).sqrt()
+}
+
+/// Heights of a canvas before strokes are drawn on it.
+pub(super) struct Heights(Vec<f32>);
+
+impl Heights {
+    pub(super) fn of(canvas: &[Spot]) -> Self {
+        Self(canvas.iter().map(|spot| spot.height).collect())
+    }
+
+    /// Height at a point of the unit square.
+    pub(super) fn at(&self, point: [f32; 2]) -> f32 {
+        let [x, y] = point.map(|w| (w * SIDE as f32) as usize % SIDE);
+        self.0[y * SIDE + x]
+    }
+}
+
 /// Noise of the texel alone, -1..1.
 pub(super) fn grain(texel: Texel, seed: u32) -> f32 {
     2.0 * hash([(texel.index % SIDE) as u32, (texel.index / SIDE) as u32], seed)[0] - 1.0
@@ -47,7 +66,7 @@ pub(super) fn dice(number: u32, seed: u32) -> [f32; 6] {
     [a, b, c, d, e, f]
 }
 
-/// Where a stroke lies: its middle, the sine and cosine of its turn, and its half sides, as shares of the side length.
+/// Place of a stroke: its middle and its half sides are shares of the pattern's side length.
 pub(super) struct Stroke {
     pub(super) middle: [f32; 2],
     pub(super) turn_rad: f32,

@@ -108,7 +108,7 @@ pub(super) fn firn() -> Vec<Spot> {
 }
 
 /// Lines where ice is broken.
-fn cracks(period: usize, width: f32, seed: u32) -> impl Fn(Texel) -> f32 + Sync {
+fn cracks(period: usize, width: f32, seed: u32) -> impl Fn(Texel) -> f32 {
     let (warp, cells) = (Warp::new(period + 1, 0.22 / period as f32, seed + 3), Cells::new(period, seed));
     move |at: Texel| {
         let cell = cells.at(warp.at(at));

@@ -27,6 +27,11 @@ pub(crate) fn kinds_of(biomes: &Biomes) -> Vec<Detail> {
     Detail::ALL.iter().filter(|kind| **kind != Detail::None && shown.clone().any(|s| s == **kind)).copied().collect()
 }
 
+/// Draws the patterns of a planet on other threads.
+pub(crate) fn draw_ahead(biomes: &Biomes) {
+    arrays::draw_ahead(&kinds_of(biomes));
+}
+
 /// Height of the small bumps of the ground (centimetres to metres, `macro_variation.wgsl`) as a share of those of bare
 /// rock: water and wind level loose ground, plants hide it.
 pub(crate) fn bumps(kind: Detail) -> f64 {

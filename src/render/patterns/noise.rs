@@ -2,8 +2,6 @@
 //! million points take milliseconds. [`Drawn`] evaluates all texels of a pattern row by row, and shares the terms that
 //! texels of a row have in common.
 
-use rayon::prelude::*;
-
 /// Texels along a side of a pattern.
 pub(crate) const SIDE: usize = 512;
 
@@ -165,13 +163,14 @@ impl Drawn {
         let fractal = Fractal::new(period, octaves, seed);
         let columns: Vec<_> = fractal.0.iter().map(Smooth::columns).collect();
         let mut values = vec![0.0; SIDE * SIDE];
-        values.par_chunks_mut(SIDE).enumerate().with_min_len(32).for_each_init(Vec::new, |sides, (y, row)| {
+        let mut sides = Vec::new();
+        for (y, row) in values.chunks_mut(SIDE).enumerate() {
             let mut weight = 1.0;
             for (octave, columns) in fractal.0.iter().zip(&columns) {
-                octave.add_row(y, columns, weight, sides, row);
+                octave.add_row(y, columns, weight, &mut sides, row);
                 weight *= 0.5;
             }
-        });
+        }
         Self(values)
     }
 
@@ -274,5 +273,35 @@ impl Cells {
             ways,
             which,
         }
+    }
+}
+
+/// Things that lie scattered: cells with bent outlines, of which a share holds one.
+pub(super) struct Scattered {
+    /// Cells along a side.
+    pub(super) period: f32,
+    share: f32,
+    bend: Warp,
+    cells: Cells,
+}
+
+impl Scattered {
+    /// `period`: cells along a side. `share`: of the cells that hold a thing. `bend`: noise cells along a cell, and how far
+    /// they move its outline, in cells.
+    pub(super) fn new(period: usize, share: f32, bend: (usize, f32), seed: u32) -> Self {
+        let (across, by) = bend;
+        let bend = Warp::new(across * period, by / period as f32, seed + 50);
+        Self { period: period as f32, share, bend, cells: Cells::new(period, seed) }
+    }
+
+    /// The cell at a texel, if it holds a thing. Its first number is the rarity of the thing, up to the share.
+    pub(super) fn at(&self, at: Texel) -> Option<Cell> {
+        let cell = self.cells.at(self.bend.at(at));
+        (cell.own[0] <= self.share).then_some(cell)
+    }
+
+    /// The place of a texel with bent outlines.
+    pub(super) fn bent(&self, at: Texel) -> [f32; 2] {
+        self.bend.at(at)
     }
 }

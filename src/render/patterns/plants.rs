@@ -1,7 +1,7 @@
 //! Ground that plants cover: grass, steppe, moss, fallen leaves, needles.
 
-use super::canvas::{Spot, Stroke, between, dice, each, grain, tinted};
-use super::noise::{Cells, Drawn, Fractal, Warp, step};
+use super::canvas::{Heights, Spot, Stroke, between, dice, each, grain, tinted};
+use super::noise::{Cell, Cells, Drawn, Fractal, Warp, step};
 use std::f32::consts::TAU;
 
 /// One blade from its root to its tip.
@@ -132,7 +132,7 @@ pub(super) fn moss() -> Vec<Spot> {
         let bent = bend.at(at);
         let (cushion, tuft, star) = (cushions.at(bent), small.at(bent), stars.at(at.at));
         // Cushions are domes of shoots that stand side by side; they grow into one another without an edge.
-        let dome = |cell: super::noise::Cell| {
+        let dome = |cell: Cell| {
             (1.0 - (cell.nearest / (0.5 + 0.4 * cell.own[1])).powi(2)).max(0.0) * step(0.0, 0.35, cell.border())
         };
         let (dome, tuft) = (dome(cushion) * cushion.own[0], dome(tuft));
@@ -212,12 +212,7 @@ pub(super) fn needles() -> Vec<Spot> {
             glow: 0.0,
         }
     });
-    let ground: Vec<f32> = canvas.iter().map(|spot| spot.height).collect();
-    let height_at = |[x, y]: [f32; 2]| {
-        let side = super::noise::SIDE;
-        let cell = |w: f32| ((w.rem_euclid(1.0) * side as f32) as usize).min(side - 1);
-        ground[cell(y) * side + cell(x)]
-    };
+    let ground = Heights::of(&canvas);
     for number in 0..12_000_u32 {
         let [x, y, turn, long, hue, lift] = dice(number, 225);
         let twig = number % 170 == 0;
@@ -230,7 +225,7 @@ pub(super) fn needles() -> Vec<Spot> {
             3 => [1.2, 1.05, 0.95],
             _ => [1.05, 0.85, 0.75],
         };
-        let (low, light) = (height_at([x, y]), 0.6 + 1.0 * lift);
+        let (low, light) = (ground.at([x, y]), 0.6 + 1.0 * lift);
         let stroke = Stroke { middle: [x, y], turn_rad: TAU * turn, half_length, half_width };
         stroke.draw(&mut canvas, |_, across| {
             (across.abs() < 1.0).then(|| Spot {
@@ -245,7 +240,7 @@ pub(super) fn needles() -> Vec<Spot> {
         let [x, y, turn, size, hue, _] = dice(number, 226);
         let half_length = 0.022 + 0.014 * size;
         let stroke = Stroke { middle: [x, y], turn_rad: TAU * turn, half_length, half_width: 0.55 * half_length };
-        let low = height_at([x, y]);
+        let low = ground.at([x, y]);
         stroke.draw(&mut canvas, |along, across| {
             let egg = (1.0 - along * along) * (1.0 - 0.25 * along);
             let round = egg - across * across;

@@ -1,7 +1,7 @@
 //! Solid rock and lava.
 
-use super::canvas::{Spot, between, each, grain, grey, tinted};
-use super::noise::{Cells, Drawn, Warp, step};
+use super::canvas::{Spot, between, dome, each, grain, grey, tinted};
+use super::noise::{Cell, Cells, Drawn, Scattered, Texel, Warp, step};
 use std::f32::consts::TAU;
 
 /// Height of a face that is tilted by the random numbers of its cell.
@@ -10,7 +10,7 @@ fn lean(own: [f32; 3], [x, y]: [f32; 2]) -> f32 {
 }
 
 /// Lichen: rosettes that grow where `growth` is high. Share of the texel under it.
-fn lichen(at: super::noise::Texel, growth: &Drawn, rosettes: &Cells) -> f32 {
+fn lichen(at: Texel, growth: &Drawn, rosettes: &Cells) -> f32 {
     let rosette = rosettes.at(at.at);
     let r = rosette.nearest / (0.2 + 0.35 * rosette.own[1]);
     let ring = step(1.0, 0.8, r) * (0.55 + 0.45 * step(0.35, 0.8, r));
@@ -70,7 +70,7 @@ pub(super) fn basalt() -> Vec<Spot> {
         let border = column.border();
         let gap = 1.0 - step(0.004, 0.035, border);
         let worn = step(0.0, 0.16, border);
-        let hole = |cell: super::noise::Cell, share: f32, wide: f32| {
+        let hole = |cell: Cell, share: f32, wide: f32| {
             step(wide, 0.4 * wide, cell.nearest) * f32::from(cell.own[0] < share * (0.4 + 0.9 * column.own[1]))
         };
         let pits = (hole(bubbles.at(at.at), 0.3, 0.30) + 0.8 * hole(small.at(at.at), 0.3, 0.32)).min(1.0);
@@ -217,9 +217,7 @@ pub(super) fn ropes() -> Vec<Spot> {
         let light = 0.92 + 0.3 * (lobe.own[2] - 0.5) + 0.16 * ropes + 0.26 * rough + 0.12 * sheen.at(at);
         let color = between([1.06, 1.0, 0.95], [0.94, 1.0, 1.07], glassy);
         Spot {
-            height: 0.05 * (rim * (2.0 - rim)).sqrt() + 0.03 * lobe.own[2] + 0.010 * ropes + 0.010 * rough
-                - 0.03 * gap
-                - 0.004 * pit,
+            height: 0.05 * dome(rim) + 0.03 * lobe.own[2] + 0.010 * ropes + 0.010 * rough - 0.03 * gap - 0.004 * pit,
             tint: tinted(color, light.max(0.12) * (1.0 - 0.6 * gap) * (1.0 - 0.4 * pit)),
             roughness: -0.22 * glassy * step(-0.2, 0.6, ropes) + 0.04,
             glow: 0.0,
@@ -230,27 +228,23 @@ pub(super) fn ropes() -> Vec<Spot> {
 /// Clinker: rubble of lava full of holes.
 pub(super) fn clinker() -> Vec<Spot> {
     let (rough, stains) = (Drawn::new(9, 7, 351), Drawn::new(4, 4, 352));
-    let sizes = [(40, 0.95, 353), (21, 0.85, 354), (11, 0.65, 355), (6, 0.4, 356)].map(
-        |(period, share, seed): (usize, f32, u32)| {
-            let bend = Warp::new(2 * period, 0.22 / period as f32, seed + 50);
-            (period as f32, share, bend, Cells::new(period, seed))
-        },
-    );
+    let sizes = [(40, 0.95, 353), (21, 0.85, 354), (11, 0.65, 355), (6, 0.4, 356)]
+        .map(|(period, share, seed)| Scattered::new(period, share, (2, 0.22), seed));
     let (holes, spikes) = (Cells::new(64, 357), Drawn::new(48, 3, 358));
     each(|at| {
         let rough = rough.at(at);
         let mut spot = Spot { height: -0.01, tint: grey(0.4 + 0.1 * rough), roughness: 0.06, glow: 0.0 };
         let hole = holes.at(at.at);
         let pit = step(0.4, 0.15, hole.nearest) * f32::from(hole.own[0] < 0.4);
-        for (period, share, bend, cells) in &sizes {
-            let cell = cells.at(bend.at(at));
+        for lumps in &sizes {
+            let Some(cell) = lumps.at(at) else { continue };
             let border = cell.border();
-            if cell.own[0] > *share || border < 0.03 {
+            if border < 0.03 {
                 continue;
             }
             let dome = step(0.03, 0.4, border).sqrt();
             let height =
-                (0.1 + 0.42 * cell.own[1] * dome + 0.2 * dome) / period + 0.012 * rough + 0.005 * spikes.at(at)
+                (0.1 + 0.42 * cell.own[1] * dome + 0.2 * dome) / lumps.period + 0.012 * rough + 0.005 * spikes.at(at)
                     - 0.004 * pit;
             if height > spot.height {
                 let red = step(0.2, 0.8, stains.at(at) + cell.own[2] - 0.5);
