@@ -38,7 +38,7 @@ pub struct GroundMaterials {
 }
 
 impl GroundMaterials {
-    /// Takes some 50 ms of one core where biomes have patches.
+    /// Takes some 90 ms of one core where biomes have patches.
     pub fn new(terrain: &Terrain) -> Self {
         let planet = terrain.planet();
         let has_patches = planet.biomes.palette.iter().any(|biome| biome.patches > 0.0);

@@ -48,7 +48,7 @@ pub(super) fn wet_mud() -> Vec<Spot> {
         let r = hole.nearest / 0.16;
         let dug = f32::from(hole.own[0] < 0.14) * (1.0 - puddle);
         let cast = dug * (step(1.9, 1.0, r) - 1.6 * step(0.7, 0.4, r));
-        let light = 1.06 - 0.22 * shore - 0.18 * puddle + 0.10 * lumps.at(at) * (1.0 - puddle) + 0.05 * ripple
+        let light = 1.06 - 0.12 * shore - 0.08 * puddle + 0.10 * lumps.at(at) * (1.0 - puddle) + 0.05 * ripple
             - 0.12 * runnel
             + 0.14 * cast
             + 0.04 * grain(at, 506);
