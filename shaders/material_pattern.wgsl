@@ -1,6 +1,6 @@
 // Patterns of the ground: a tiling texture for each kind, projected along three axes (triplanar), at two scales,
-// shifted from part to part so that no period is seen, and advected downhill where the material flows. Layout of the texels:
-// src/render/patterns/arrays.rs and src/render/biome_table.rs.
+// shifted from part to part so that no period is seen, and advected downhill where the material flows. Layout of the
+// texels: src/render/patterns/arrays.rs and src/render/biome_table.rs.
 #include "uniforms.wgsl"
 #include "luts.wgsl"
 #include "macro_variation.wgsl"

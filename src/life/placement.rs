@@ -120,7 +120,8 @@ impl Placement {
     }
 
     /// Adds the objects of cells whose rank is below a limit, as [`Placement::place`] does, bit for bit. Objects
-    /// above it cost little: the rank of a candidate is known before its ground, and what does not suit it raises the rank.
+    /// above it cost little: the rank of a candidate is known before its ground, and what does not suit it raises
+    /// the rank.
     pub(super) fn place_below(
         &self,
         limit: f64,

@@ -160,9 +160,8 @@ impl Renderer {
         self.views.remove(&id);
     }
 
-    /// Draws the patterns of a planet's ground on other threads (some 20 to 170 ms of a core for each kind that no planet
-    /// has shown), so that the first frame with it does not wait for them. Call it where the planet's tiles are asked
-    /// for. Without it that frame draws them.
+    /// Draws the patterns of a planet's ground on other threads (some 20 to 170 ms of a core for each kind that no
+    /// planet has shown). Call it where the planet's tiles are asked for; without it the first frame waits for them.
     pub fn draw_patterns_ahead(planet: &Planet) {
         super::patterns::draw_ahead(&planet.biomes);
     }

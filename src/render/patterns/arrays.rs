@@ -92,8 +92,8 @@ pub(super) fn draw_ahead(kinds: &[Detail]) {
     }
 }
 
-/// The layer of a kind, drawn once in the process. Drawing it is the work of one thread: one that waited for others here
-/// could take a task that asks for the same layer, and would wait for itself.
+/// The layer of a kind, drawn once in the process. Drawing it is the work of one thread: one that waited for others
+/// here could take a task that asks for the same layer, and would wait for itself.
 fn layer(kind: Detail) -> &'static Layer {
     static LAYERS: [OnceLock<Layer>; Detail::ALL.len()] = [const { OnceLock::new() }; Detail::ALL.len()];
     LAYERS[kind as usize].get_or_init(|| Layer::new(&draw(kind)))

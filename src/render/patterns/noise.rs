@@ -286,8 +286,8 @@ pub(super) struct Scattered {
 }
 
 impl Scattered {
-    /// `period`: cells along a side. `share`: of the cells that hold a thing. `bend`: noise cells along a cell, and how far
-    /// they move its outline, in cells.
+    /// `period`: cells along a side. `share`: of the cells that hold a thing. `bend`: noise cells along a cell, and how
+    /// far they move its outline, in cells.
     pub(super) fn new(period: usize, share: f32, bend: (usize, f32), seed: u32) -> Self {
         let (across, by) = bend;
         let bend = Warp::new(across * period, by / period as f32, seed + 50);
