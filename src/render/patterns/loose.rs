@@ -212,7 +212,7 @@ pub(super) fn cobbles() -> Vec<Spot> {
                     (0.62 + 0.55 * tone) * (0.72 + 0.3 * dome) * (1.0 + 0.10 * grit.at(at) + 0.1 * stains.at(at));
                 let color = between([1.1, 0.99, 0.9], [0.92, 1.0, 1.08], hue);
                 let light = light + 0.45 * vein;
-                spot = Spot { height, tint: tinted(color, light), roughness: -0.14, glow: 0.0 };
+                spot = Spot { height, tint: tinted(color, light), roughness: -0.05, glow: 0.0 };
             }
         }
         spot

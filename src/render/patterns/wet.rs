@@ -57,7 +57,7 @@ pub(super) fn wet_mud() -> Vec<Spot> {
                 + 0.0022 * ripple
                 + (0.003 * lumps.at(at) - 0.006 * runnel + 0.005 * cast) * (1.0 - puddle),
             tint: tinted(between([1.02, 1.0, 0.96], [0.94, 1.0, 1.02], puddle), light),
-            roughness: 0.02 - 0.32 * shore - 0.28 * puddle - 0.15 * runnel,
+            roughness: 0.02 - 0.22 * shore - 0.2 * puddle - 0.1 * runnel,
             glow: 0.0,
         }
     })
