@@ -204,10 +204,42 @@ fn blades(p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     return out;
 }
 
+// Widths of shoots of moss and of the groups they stand in, metres.
+const SHOOT_M: f32 = 0.014;
+const SHOOTS_M: f32 = 0.06;
+
+// Moss: soft shoots with dark gaps, in groups of different greens.
+fn moss(p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
+    let clear = vec2f(clear_at(2.0 * SHOOT_M, pixel_m), clear_at(2.0 * SHOOTS_M, pixel_m));
+    if clear.y <= 0.0 { return PLAIN; }
+    let group = nearest_cell(p_m / SHOOTS_M);
+    var shoots = 0.0;
+    if clear.x > 0.0 {
+        shoots = clear.x * (lattice_noise(p_m / SHOOT_M) + 0.5 * lattice_noise(p_m / (0.45 * SHOOT_M)) - 0.75);
+    }
+    let dome = 0.22 - group.distance2;
+    let hue = (group.random.x - 0.5) * vec3f(0.5, 0.3, 0.2);
+    let tint = (1.0 + 1.1 * shoots) * (1.0 + clear.y * (0.9 * dome + hue));
+    return ObjectMaterial(tint, 0.5 * SHOOT_M * shoots + 0.25 * SHOOTS_M * clear.y * dome, vec3f(0.0), 0.0);
+}
+
+// Bark, and moss over it. `p_m`: place in the form, with z along the wood.
+fn fallen(covered: f32, p_m: vec3f, pixel_m: f32) -> ObjectMaterial {
+    if covered >= 1.0 { return moss(p_m, pixel_m); }
+    let wood = bark(p_m, pixel_m);
+    if covered <= 0.0 { return wood; }
+    let over = moss(p_m, pixel_m);
+    return ObjectMaterial(
+        mix(wood.tint, over.tint, covered), mix(wood.height_m, over.height_m, covered), vec3f(0.0), 0.0,
+    );
+}
+
 // `leaf`: share of the second colour. `p_m`: place in the form.
 fn object_material(kind: u32, leaf: f32, p_m: vec3f, size_m: f32, pixel_m: f32) -> ObjectMaterial {
     if kind == ROCK { return rock(p_m, size_m, pixel_m); }
     if kind == BLADED { return blades(p_m, size_m, pixel_m); }
+    if kind == MOSSY { return moss(p_m, pixel_m); }
+    if kind == FALLEN { return fallen(leaf, p_m.zyx, pixel_m); }
     if kind >= LEAFY && leaf < 0.5 { return bark(p_m, pixel_m); }
     if kind == LEAFY { return leaves(p_m, size_m, pixel_m); }
     if kind == NEEDLED { return needles(p_m, pixel_m); }

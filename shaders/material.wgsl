@@ -46,6 +46,8 @@ struct Material {
     tint: vec3f,
     // Height of small bumps as a share of those of bare rock
     bumps: f32,
+    // Share of the first sun's light that the heights of the pattern leave
+    sun: f32,
 }
 
 fn biome_at(cell: vec2i) -> i32 {
@@ -292,7 +294,8 @@ fn patterns_of(mixture: Mixture, share: f32, seen: Seen) -> array<Pattern, 2> {
         let patches = mixture.patches[biome];
         let shown = shown_layers(layers, patches, is_low);
         if !shown[i & 1] { continue; }
-        let pattern = pattern_of(mixture.ids[biome], layers[i & 1], seen);
+        let relief = biome_param(mixture.ids[biome], 7)[i & 1];
+        let pattern = pattern_of(mixture.ids[biome], layers[i & 1], relief, seen);
         if (i & 1) == 0 || !shown.x {
             out[biome] = pattern;
             continue;
@@ -331,5 +334,6 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     out.shares = mixture.weights;
     out.tint = mix(vec3f(1.0), mix(a.tint, b.tint, t), both);
     out.bumps = mixture.bumps;
+    out.sun = mix(1.0, mix(a.sun, b.sun, t), both);
     return out;
 }

@@ -26,9 +26,11 @@ struct Pattern {
     // 0 in the foreground, 1 where only the mean is left
     far: f32,
     shown: f32,
+    // Share of the first sun's light that the heights around leave
+    sun: f32,
 }
 
-fn no_pattern() -> Pattern { return Pattern(vec3f(1.0), 0.5, vec3f(0.0), 0.0, vec3f(0.0), 1.0, 0.0); }
+fn no_pattern() -> Pattern { return Pattern(vec3f(1.0), 0.5, vec3f(0.0), 0.0, vec3f(0.0), 1.0, 0.0, 1.0); }
 
 // Weight of the second pattern where its share is `share` on average (at most a half): it shows where it is higher than
 // the first by a threshold. With two heights distributed evenly, or one such height and a plane, exactly that share of
@@ -44,7 +46,8 @@ fn share_by_height(a: Pattern, b: Pattern, share: f32) -> f32 {
 // A pattern between two; `t`: share of the second.
 fn mixed_pattern(a: Pattern, b: Pattern, t: f32) -> Pattern {
     return Pattern(mix(a.tint, b.tint, t), mix(a.height, b.height, t), mix(a.slope, b.slope, t),
-        mix(a.roughness, b.roughness, t), mix(a.glow, b.glow, t), mix(a.far, b.far, t), max(a.shown, b.shown));
+        mix(a.roughness, b.roughness, t), mix(a.glow, b.glow, t), mix(a.far, b.far, t), max(a.shown, b.shown),
+        mix(a.sun, b.sun, t));
 }
 
 // Rotation by the angle of the triangle with sides 3, 4 and 5: a pattern that repeats after 1024 m still does.
@@ -151,9 +154,75 @@ fn pattern_layers(id: i32) -> vec2i {
     return vec2i(textureLoad(biome_params, vec2i(id, 6), 0).xy);
 }
 
+// Relief of a pattern near the eye: how far the ground that is seen lies aside of the plane on which it is drawn, in
+// metres, because its heights hide what is behind them; and the share of the first sun's light that they leave. Heights
+// are about the plane, so their mean is the ground's.
+struct PatternRelief {
+    aside_m: vec3f,
+    sun: f32,
+}
+
+// Levels of detail, by the mean side of the pixel, over which the relief ends.
+const RELIEF_LODS: vec2f = vec2f(1.2, 3.4);
+// Lowest rays over the ground that are followed, as sines: lower ones are followed as these.
+const LOWEST_EYE: f32 = 0.16;
+const LOWEST_SUN: f32 = 0.09;
+// Width of the edge of shadows: rise over run.
+const SHADOW_EDGE: f32 = 0.3;
+
+// Height of a pattern at a place in periods, as a share of its range, -0.5 to 0.5.
+fn pattern_height(at: vec2f, layer: i32, level: f32) -> f32 {
+    return textureSampleLevel(material_tint, repeated, at, layer, level).a - 0.5;
+}
+
+// `range_m`: from the lowest to the highest ground. `at`: place in periods on the plane. Rays go through heights level
+// by level from the top (Policarpo et al., Real-time relief mapping on arbitrary polygonal surfaces, 2005).
+fn pattern_relief(layer: i32, range_m: f32, period_m: f32, level: f32, axis: u32, at: vec2f, seen: Seen) -> PatternRelief {
+    let eye = normalize(-seen.rel_m);
+    let eye_n = dot(eye, seen.n);
+    // How far aside the ray to the eye, and that to the sun, go while they rise by the whole range.
+    let to_eye_m = (eye - seen.n * eye_n) * (range_m / max(eye_n, LOWEST_EYE));
+    let to_eye = projected(to_eye_m, axis) / period_m;
+    let steps = select(6u, 12u, frame.pattern_quality > 1.0);
+    let lower = 1.0 / f32(steps);
+    var z = 0.5;
+    var over = 0.5;
+    for (var i = 0u; i <= steps; i++) {
+        let ground = pattern_height(at + to_eye * z, layer, level);
+        if ground >= z {
+            // Between the last level over the ground and this one.
+            z += lower * (ground - z) / max(ground - z + over, 1e-4);
+            break;
+        }
+        over = z - ground;
+        z -= lower;
+    }
+    z = clamp(z, -0.5, 0.5);
+    var out = PatternRelief(to_eye_m * z, 1.0);
+    let sun = body.suns[0].dir;
+    let sun_n = dot(sun, seen.n);
+    if sun_n <= 0.0 { return out; }
+    let to_sun = projected(sun - seen.n * sun_n, axis) * (range_m / (max(sun_n, LOWEST_SUN) * period_m));
+    let start = at + to_eye * z;
+    // What was found on a steep side may lie within it.
+    let foot = max(z, pattern_height(start, layer, level));
+    let sun_steps = select(4u, 8u, frame.pattern_quality > 1.0);
+    let soft = SHADOW_EDGE * length(to_sun) * period_m / range_m;
+    var hidden = 0.0;
+    for (var i = 1u; i <= sun_steps; i++) {
+        // Closer near the ground, where thin things stand.
+        let share = f32(i) / f32(sun_steps);
+        let rise = (0.5 - foot) * share * share;
+        let ground = pattern_height(start + to_sun * rise, layer, level);
+        hidden = max(hidden, (ground - foot - rise) / (soft * rise + 0.04));
+    }
+    out.sun = 1.0 - saturate1(hidden);
+    return out;
+}
+
 // A layer as a biome shows it. All taps share one loop, because a software driver takes minutes to compile the unrolled
 // taps.
-fn pattern_of(id: i32, layer: i32, seen: Seen) -> Pattern {
+fn pattern_of(id: i32, layer: i32, relief: f32, seen: Seen) -> Pattern {
     var out = no_pattern();
     let size = textureLoad(biome_params, vec2i(id, 3), 0);
     let glow = textureLoad(biome_params, vec2i(id, 4), 0);
@@ -189,6 +258,20 @@ fn pattern_of(id: i32, layer: i32, seen: Seen) -> Pattern {
     if !is_low && !flows { shifts = shifts_at(seen, size.x); }
     // Two patterns in their mean have less contrast than one: the deviation from the mean is as much greater.
     let contrast = inverseSqrt(1.0 - 2.0 * shifts.share * (1.0 - shifts.share));
+    var aside_m = vec3f(0.0);
+    out.sun = 1.0;
+    // By the mean of both sides of the pixel.
+    let width_m = sqrt(max(length(seen.rel_x) * length(seen.rel_y), 1e-9));
+    let near_lod = log2(width_m * PATTERN_SIDE / size.x);
+    let range_m = relief * size.x * size.y * (1.0 - smoothstep(RELIEF_LODS.x, RELIEF_LODS.y, near_lod));
+    if !is_low && !flows && range_m > 0.0 {
+        let axis = select(select(2u, 1u, planes.y > planes.z), 0u, planes.x > max(planes.y, planes.z));
+        let shift = select(shifts.first, shifts.second, shifts.share > 0.5);
+        let at = projected(body.eye_wrap_m + seen.rel_m, axis) / size.x + shift;
+        let found = pattern_relief(layer, range_m, size.x, max(near_lod - 0.5, 0.0), axis, at, seen);
+        aside_m = found.aside_m;
+        out.sun = found.sun;
+    }
     var tint = vec3f(0.0);
     var slope = vec3f(0.0);
     var coarse = vec3f(0.0);
@@ -207,7 +290,7 @@ fn pattern_of(id: i32, layer: i32, seen: Seen) -> Pattern {
         let is_x_longer = dot(x, x) > dot(y, y);
         let long_m = select(y, x, is_x_longer);
         let wide_m = max(length(select(x, y, is_x_longer)), length(long_m) * tap_width);
-        var p = projected(body.eye_wrap_m + seen.rel_m - carried_m, axis);
+        var p = projected(body.eye_wrap_m + seen.rel_m + aside_m - carried_m, axis);
         p += long_m * tap_place(step, steps);
         var period_m = size.x;
         if is_second {

@@ -305,7 +305,7 @@ fn lit(ground: Material, canopy: Canopy, facet: Facet, from_ground: Visibility, 
     let shade = ground_shade(canopy, is_first);
     let open_sky = sky_irradiance(facet.altitude_km, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
     let open_sun = sunlight * (clouds.straight * from_ground.star);
-    let shadow = clouds.straight * from_ground.star * shade.sun;
+    let shadow = clouds.straight * from_ground.star * shade.sun * select(1.0, ground.sun, is_first);
     // Crowns hide the sky, and let some of the sun through in its place.
     var sky = open_sky * shade.sky + sunlight * canopy.through * (1.0 - shade.sky);
     // Light goes to and fro between ground and fog.
@@ -412,7 +412,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     ground.albedo *= splashed(over_sea_m, pixel_ground.spread_m, variation);
     if GIANT {
         let deck = giant_tops(up, footprint_m * 0.001 / body.radius_km);
-        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0), vec2<i32>(-1), vec2f(0.0), vec3f(1.0), 1.0);
+        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0), vec2<i32>(-1), vec2f(0.0), vec3f(1.0), 1.0, 1.0);
     }
     let wet = pixel_ground.water.x;
     canopy_normal = n;

@@ -27,6 +27,9 @@ const LITTER_OF: [f64; 3] = [0.52, 0.41, 0.28];
 /// Share of sunlight that leaves let through, over their albedo: leaves are about as bright from behind.
 const LET_THROUGH: f64 = 0.72;
 
+/// The same of needles on boughs, which lie over one another.
+const NEEDLES_LET_THROUGH: f64 = 0.2;
+
 /// Light that the leaves of a population let through to what stands below, as shares of the sun's; none of stones.
 fn through_leaves(population: &Population) -> [f64; 3] {
     let has_leaves = match &population.form {
@@ -34,7 +37,8 @@ fn through_leaves(population: &Population) -> [f64; 3] {
         Form::Mesh(form) => form.file.mesh().is_some_and(|mesh| mesh.has_leaves),
         form => matches!(form, Form::Conifer(_) | Form::Palm(_) | Form::Tuft(_)),
     };
-    population.colors()[1].map(|channel| if has_leaves { LET_THROUGH * channel } else { 0.0 })
+    let share = if matches!(population.form, Form::Conifer(_)) { NEEDLES_LET_THROUGH } else { LET_THROUGH };
+    population.colors()[1].map(|channel| if has_leaves { share * channel } else { 0.0 })
 }
 
 /// What a population covers of the ground where everything suits it.

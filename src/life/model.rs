@@ -16,6 +16,8 @@ pub struct Model {
     pub level_light: [f64; form::LEVELS],
     /// Distance from the foot within which every mesh lies, in heights.
     pub reach: f64,
+    /// Size by which its level of detail is chosen, in heights.
+    pub seen_size: f64,
 }
 
 impl Model {
@@ -36,7 +38,7 @@ impl Model {
         let level_light = variants.first().map_or([1.0; form::LEVELS], form::level_light);
         let vertices = variants.iter().flatten().flat_map(|mesh| &mesh.vertices);
         let reach = vertices.map(|vertex| f64::from(vertex.position.length())).fold(0.0, f64::max);
-        Self { key: Self::key_of(population), variants, level_light, reach }
+        Self { key: Self::key_of(population), variants, level_light, reach, seen_size: population.form.seen_size() }
     }
 
     /// Mesh of one variant of a population's form at the nearest level of detail; see [`form::mesh`].

@@ -84,7 +84,7 @@ impl Thinning {
     }
 }
 
-/// Heights of an object within which it is drawn if it stands for itself, and the most objects of a population around
+/// Sizes of an object within which it is drawn if it stands for itself, and the most objects of a population around
 /// the eye.
 fn limits(quality: Quality) -> (f64, f64) {
     match quality {
@@ -98,7 +98,7 @@ fn limits(quality: Quality) -> (f64, f64) {
 fn own_reach_m(placement: &Placement, quality: Quality) -> f64 {
     let (heights, most) = limits(quality);
     let by_count_m = (most / (placement.most_per_m2() * std::f64::consts::PI)).sqrt();
-    (placement.population().height_m * heights).min(by_count_m)
+    (placement.population().height_m * placement.population().form.seen_size() * heights).min(by_count_m)
 }
 
 /// How objects of each population thin out among all: none are drawn beyond those of a denser population of like size

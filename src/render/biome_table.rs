@@ -14,7 +14,9 @@ pub(crate) const RULES: usize = MAX_BIOMES + 1;
 pub(crate) const SHOWN: usize = MAX_BIOMES + 2;
 const COLUMNS: usize = MAX_BIOMES + 3;
 /// Rows of a column without its canopy, four numbers each.
-const ROWS: usize = 7;
+const ROWS: usize = 8;
+/// Row of the texture layers, and of the number of populations in the canopy.
+const LAYERS_ROW: usize = 6;
 /// First row of the canopy.
 pub(crate) const CANOPY: usize = ROWS;
 /// Row that says of a biome whether the shown population stands there, and in its own column whether it is known.
@@ -85,7 +87,7 @@ impl BiomeTexels {
         put(RULES, rules(biomes));
         for (column, biome) in biomes.palette.iter().take(MAX_BIOMES).enumerate() {
             let (count, rows) = canopies.of_biome(biome.key);
-            params[(ROWS - 1) * COLUMNS + column][3] = count as f32;
+            params[LAYERS_ROW * COLUMNS + column][3] = count as f32;
             for (row, numbers) in rows.into_iter().enumerate() {
                 params[(CANOPY + row) * COLUMNS + column] = numbers;
             }
@@ -120,6 +122,7 @@ fn numbers(biome: &Biome, biomes: &Biomes, kinds: &[Detail]) -> [[f64; 4]; ROWS]
     let fine_m = whole(WRAP_M, TURN, FINE * size_m);
     let patch_m = material::patch_tile_m(biome);
     let layer = |kind: Detail| kinds.iter().position(|known| *known == kind).map_or(-1.0, |layer| layer as f64);
+    let relief = |kind: Detail| f64::from(patterns::relief_of(kind));
     let cosine = |degrees: f64| degrees.to_radians().cos();
     let [into, from, to] = biomes.steep_rule(biome).map_or([-1.0, 0.0, 0.0], |rule| {
         [rule.into.map_or(ROCK, |index| index) as f64, cosine(rule.from_deg), cosine(rule.to_deg)]
@@ -133,6 +136,7 @@ fn numbers(biome: &Biome, biomes: &Biomes, kinds: &[Detail]) -> [[f64; 4]; ROWS]
         four(biome.glow_color, fine_m),
         [into, from, to, 0.0],
         [layer(biome.detail), layer(biome.detail_of_patches()), 0.0, 0.0],
+        [relief(biome.detail), relief(biome.detail_of_patches()), 0.0, 0.0],
     ]
 }
 

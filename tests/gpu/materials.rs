@@ -151,6 +151,40 @@ fn the_ground_before_the_feet_is_not_smeared() {
     assert!(low > 0.65 * medium && low < 1.6 * medium, "{low} at low, {medium} at medium quality");
 }
 
+/// Light of grey ground with a pattern right below the eye, under a sun of an elevation: each pixel of the picture.
+fn light_below(gpu: &mut Gpu, detail: Detail, sun_deg: f64, quality: Quality) -> Vec<f64> {
+    let planet = Arc::new(ball(Biome { detail, detail_m: 1.5, ..grey(0.25) }));
+    let camera = camera(&planet, PLACE.0, PLACE.1, 1.2, 0.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let mut frame = frame(&surface, &planet, camera, (PLACE.0 - (90.0 - sun_deg), PLACE.1));
+    frame.quality = quality;
+    gpu.draw_only(&frame, 1);
+    let (_, light) = gpu.renderer.radiance().unwrap();
+    light.iter().map(|light| f64::from(light[1])).collect()
+}
+
+/// Near the eye stones hide the sun from one another under a low sun, and the ground stays as bright as level ground.
+#[test]
+fn stones_of_a_pattern_cast_shadows_on_one_another() {
+    let mut gpu = gpu();
+    let mean = |light: &[f64]| light.iter().sum::<f64>() / light.len() as f64;
+    let dark = |light: &[f64], whole: f64| {
+        light.iter().filter(|light| **light < 0.12 * whole).count() as f64 / light.len() as f64
+    };
+    for quality in [Quality::Medium, Quality::High] {
+        let level = mean(&light_below(&mut gpu, Detail::None, 20.0, quality));
+        for detail in [Detail::Cobbles, Detail::Scree] {
+            let low = light_below(&mut gpu, detail, 20.0, quality);
+            let high = light_below(&mut gpu, detail, 70.0, quality);
+            let shares = [dark(&low, level), dark(&high, mean(&high))];
+            let ratio = mean(&low) / level;
+            println!("{detail:?}, {quality:?}: dark {shares:?}, light {ratio}");
+            assert!(shares[0] > 0.1 && shares[1] < 0.02, "{detail:?}, {quality:?}: {shares:?} in shadow");
+            assert!((ratio - 1.0).abs() < 0.1, "{detail:?}, {quality:?}: {ratio} as bright as level ground");
+        }
+    }
+}
+
 /// Greatest correlation of the fine structure of a picture with itself, moved by 0.7 to 1.5 times `period_px` in any
 /// direction.
 fn repetition(picture: &[f64], width: usize, period_px: f64) -> f64 {

@@ -2,11 +2,17 @@
 
 use super::build::{Detail, Look, Mesh};
 use super::leaf::{self, Leaf};
-use super::math::{GOLDEN, TURN, around, mix, pow, smooth};
+use super::math::{GOLDEN, TURN, around, cos, exp, mix, pow, smooth};
 use super::random::Random;
 use super::tube::{self, Knot};
 use crate::planet::life::Conifer;
 use glam::Vec3;
+
+/// Widening of the trunk at the ground, as a share of its radius: its mean, and how far roots stand out. Height over
+/// which it ends.
+const ROOTS: f32 = 0.75;
+const ROOTS_SPREAD: f32 = 0.32;
+const ROOTS_HIGH: f32 = 0.017;
 
 /// Branch of a whorl or between two.
 #[derive(Clone, Copy, Debug)]
@@ -133,20 +139,30 @@ fn chosen(mut all: Vec<Branch>, detail: &Detail) -> Vec<Branch> {
 fn trunk(mesh: &mut Mesh, form: &Conifer, detail: &Detail) {
     let wide = 0.008 + 0.016 * form.crown_width as f32 + 0.006 * form.trunk as f32;
     let shares: &[f32] = match detail.level {
-        0 => &[-0.1, 0.0, 0.03, 0.1, 0.25, 0.45, 0.7, 0.97],
+        0 => &[-0.1, -0.01, 0.006, 0.018, 0.04, 0.1, 0.25, 0.45, 0.7, 0.97],
         1 => &[-0.1, 0.03, 0.3, 0.97],
         _ => &[-0.1, 0.97],
     };
     let knots: Vec<Knot> = shares
         .iter()
         .map(|&z| {
-            let flare = 1.0 + 0.5 * super::math::exp(-z.max(0.0) / 0.025);
+            let flare = 1.0 + ROOTS * exp(-(z + 0.01).max(0.0) / ROOTS_HIGH);
             let light = mix(0.6, 0.25, smooth(form.trunk as f32, form.trunk as f32 + 0.2, z));
             let look = Look { part: 0.0, light, sway: 0.5 * pow(z.max(0.0), 1.6) };
             Knot { at: Vec3::Z * z, radius: wide * pow(1.0 - 0.97 * z.max(0.0), 1.2) * flare, look }
         })
         .collect();
-    tube::tube(mesh, &knots, detail.pick([9, 5, 3, 3]));
+    if detail.level > 0 {
+        return tube::tube(mesh, &knots, detail.pick([3, 5, 3, 3]));
+    }
+    // Roots run out to some sides.
+    let turn = Random::new(detail.seed, 2).range(0.0, TURN);
+    let lobes = move |angle: f32| 0.6 * cos(3.0 * angle + turn) + 0.4 * cos(5.0 * angle - 2.0 * turn);
+    let last = shares.len() as f32 - 1.0;
+    tube::fluted(mesh, &knots, 16, |angle, share| {
+        let z = shares[((share * last).round() as usize).min(shares.len() - 1)];
+        1.0 + ROOTS_SPREAD * lobes(angle) * exp(-(z + 0.01).max(0.0) / ROOTS_HIGH)
+    });
 }
 
 /// Branch as a spray of `count` triangles: a blade along it and a comb of narrow blades to both sides and below.

@@ -5,7 +5,7 @@
 //! - `sight`, `steer`: what is seen from the side and from above, and the search for levels of detail that match
 //! - `cover`: how much a form covers, and its light, for what is seen of many from afar
 //! - `tree`, `crown`, `foliage`, `conifer`, `palm`, `tuft`, `cushion`, `cactus`, `mushroom`: kinds of plant
-//! - `stone`, `crystal`: kinds of rock; `bulbs`, `fans`, `tendrils`: kinds of strange life
+//! - `wood`: fallen wood; `stone`, `crystal`: kinds of rock; `bulbs`, `fans`, `tendrils`: kinds of strange life
 //! - `artist`: meshes of files; `shade`: their light, `thin`: their levels of detail; `stand_in`: what is drawn of an
 //!   object that a game draws
 
@@ -42,6 +42,7 @@ mod thin;
 mod tree;
 mod tube;
 mod tuft;
+mod wood;
 
 use crate::planet::Form;
 use build::Detail;
@@ -69,6 +70,7 @@ impl Form {
             Form::Cushion(form) => Box::new(|detail| cushion::build(form, detail)),
             Form::Cactus(form) => Box::new(|detail| cactus::build(form, detail)),
             Form::Mushroom(form) => Box::new(|detail| mushroom::build(form, detail)),
+            Form::Wood(form) => Box::new(|detail| wood::build(form, detail)),
             Form::Stone(form) => Box::new(|detail| stone::build(form, detail)),
             Form::Crystal(form) => Box::new(|detail| crystal::build(form, detail)),
             Form::Bulbs(form) => Box::new(|detail| bulbs::build(form, detail)),

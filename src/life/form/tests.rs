@@ -4,7 +4,7 @@ use super::random::{Random, hash};
 use super::{Form, LEVELS, Mesh, mesh, meshes, sight};
 use crate::planet::life::{
     Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, Mushroom, Palm, READY_POPULATIONS, Stone, Tendrils, Tree,
-    Tuft,
+    Tuft, Wood,
 };
 use glam::Vec2;
 
@@ -14,7 +14,7 @@ fn ready() -> impl Iterator<Item = (&'static str, Form)> {
 }
 
 /// Number of kinds.
-const KINDS: u32 = 12;
+const KINDS: u32 = 13;
 
 /// Number in a range; the ends come up often.
 fn real(r: &mut Random, low: f64, high: f64) -> f64 {
@@ -121,6 +121,14 @@ fn random_form(kind: u32, r: &mut Random) -> Form {
             size: real(r, 0.05, 0.5),
             fall: real(r, 0.0, 1.0),
             curl: real(r, 0.0, 1.0),
+        }),
+        11 => Form::Wood(Wood {
+            length: real(r, 2.0, 30.0),
+            pieces: whole(r, 1, 9),
+            branches: real(r, 0.0, 1.0),
+            flare: real(r, 0.0, 1.0),
+            bend: real(r, 0.0, 1.0),
+            moss: real(r, 0.0, 1.0),
         }),
         10 => Form::Fans(Fans {
             fans: whole(r, 1, 6),
@@ -238,7 +246,8 @@ fn top_limit(name: &str, level: usize) -> f32 {
     match name {
         "Conifer" => 0.06,
         // Bare branches, stalks, thin blades and solids of a few corners have nothing that could lie flatter.
-        "Dead tree" | "Palm" | "Reeds" | "Fern" | "Moss cushion" | "Mushrooms" | "Crystals" => 0.32,
+        "Dead tree" | "Palm" | "Reeds" | "Fern" | "Moss cushion" | "Mushrooms" | "Crystals" | "Twigs"
+        | "Fallen trunk" => 0.32,
         "Column cactus" | "Alien bulbs" | "Alien tendrils" if level == 3 => 0.4,
         "Column cactus" | "Barrel cactus" | "Alien fans" | "Alien tendrils" => 0.12,
         _ => 0.08,
@@ -297,7 +306,8 @@ fn ready_forms_are_plausible() {
 
 #[test]
 fn solid_forms_face_outward() {
-    let solid = ["Dead tree", "Column cactus", "Mushrooms", "Boulder", "Lava block", "Crystals", "Alien bulbs"];
+    let solid =
+        ["Dead tree", "Column cactus", "Mushrooms", "Boulder", "Lava block", "Crystals", "Alien bulbs", "Fallen trunk"];
     for (name, form) in ready().filter(|(name, _)| solid.contains(name) || *name == "Alien tendrils") {
         for mesh in &meshes(&form, 3)[..3] {
             let mut volume = 0.0;

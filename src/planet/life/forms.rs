@@ -22,6 +22,8 @@ kinds! {
     Cactus(Cactus) = "Cactus",
     /// A group of mushrooms.
     Mushroom(Mushroom) = "Mushrooms",
+    /// Fallen wood: trunks, boughs and twigs.
+    Wood(Wood) = "Fallen wood",
     /// A stone.
     Stone(Stone) = "Stone",
     /// A cluster of crystals.
@@ -41,6 +43,11 @@ kinds! {
 impl Form {
     /// Variants of each form.
     pub const VARIANTS: u32 = 4;
+
+    /// Size by which an object is seen from afar, as a multiple of its height: what lies is longer than it is high.
+    pub(crate) fn seen_size(&self) -> f64 {
+        if let Form::Wood(form) = self { form.length.sqrt() } else { 1.0 }
+    }
 
     /// Whether the variants differ.
     pub(crate) fn has_variants(&self) -> bool {
@@ -185,6 +192,24 @@ params! {
         stem_width: f64 = 0.16, "Stem width", Unit::None, linear(0.03, 0.5), Stage::Life;
         /// Lean of the stems away from one another.
         lean: f64 = 0.35, "Lean", Unit::None, linear(0.0, 1.0), Stage::Life;
+    }
+}
+
+params! {
+    /// Fallen wood: a trunk, boughs or twigs that lie on the ground.
+    pub struct Wood {
+        /// Length of the longest piece, as a multiple of the height.
+        length: f64 = 14.0, "Length", Unit::None, log(2.0, 30.0), Stage::Life;
+        /// Number of pieces that lie together.
+        pieces: u32 = 1, "Pieces", Unit::None, count(1, 9), Stage::Life;
+        /// Amount and length of the branches: 0 is a bare log.
+        branches: f64 = 0.3, "Branches", Unit::None, linear(0.0, 1.0), Stage::Life;
+        /// Widening towards the roots at the butt.
+        flare: f64 = 0.35, "Root flare", Unit::None, linear(0.0, 1.0), Stage::Life;
+        /// Crookedness of the pieces.
+        bend: f64 = 0.4, "Bend", Unit::None, linear(0.0, 1.0), Stage::Life;
+        /// Moss, in the second colour: 0 is bare wood, 1 covers all but the lower side.
+        moss: f64 = 0.4, "Moss", Unit::None, linear(0.0, 1.0), Stage::Life;
     }
 }
 

@@ -14,7 +14,7 @@ mod seeds;
 
 pub use forms::{
     Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, FileMesh, Form, GameObject, Mushroom, Palm, Stone, Tendrils,
-    Tree, Tuft,
+    Tree, Tuft, Wood,
 };
 pub use ready::{READY_POPULATIONS, ReadyPopulation};
 pub use seeds::free_seed;

@@ -18,6 +18,8 @@ const PLANTS: &[(&str, &[&str])] = &[
     ("xc", &["Dry shrub"]),
     ("d", &["Column cactus", "Barrel cactus", "Dry shrub"]),
     ("t", &["Moss cushion"]),
+    ("jfk", &["Fallen trunk"]),
+    ("jfkw", &["Twigs"]),
 ];
 
 /// Ready populations of stones of a kind of world.

@@ -18,6 +18,10 @@ pub(crate) enum Material {
     Fronded,
     /// Stains and a fine grain on blades.
     Bladed,
+    /// Bark along wood that lies, and moss.
+    Fallen,
+    /// Moss.
+    Mossy,
 }
 
 impl Material {
@@ -29,6 +33,8 @@ impl Material {
             Form::Conifer(_) => Self::Needled,
             Form::Palm(_) => Self::Fronded,
             Form::Tuft(_) => Self::Bladed,
+            Form::Wood(_) => Self::Fallen,
+            Form::Cushion(_) => Self::Mossy,
             _ => Self::Plain,
         }
     }

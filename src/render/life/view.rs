@@ -91,7 +91,9 @@ fn level_px(quality: Quality, model: Option<&Model>) -> [f64; LEVELS - 1] {
         let triangles = meshes.map_or(f64::INFINITY, |meshes| meshes[level].triangles.len() as f64);
         most_px.min(by_triangles * triangles.sqrt())
     };
-    [least(0, first), least(1, second), least(2, third)]
+    // Long things are seen by their length, too.
+    let shorter = 1.0 / model.map_or(1.0, |model| model.seen_size);
+    [least(0, first), least(1, second), least(2, third)].map(|px| px * shorter)
 }
 
 /// The place of objects on a horizon tile.

@@ -27,6 +27,8 @@ type Texels = Vec<[u8; 4]>;
 struct Layer {
     tint: Vec<Texels>,
     surface: Vec<Texels>,
+    /// Range of heights in periods: that of ranks on the line which fits the heights best.
+    relief: f32,
 }
 
 /// Both texture arrays, with a layer for each kind of pattern that a planet of the device has shown.
@@ -99,6 +101,11 @@ fn layer(kind: Detail) -> &'static Layer {
     LAYERS[kind as usize].get_or_init(|| Layer::new(&draw(kind)))
 }
 
+/// Range of heights of a kind in periods; 0 without a pattern. Draws the kind if no planet has shown it.
+pub(crate) fn relief_of(kind: Detail) -> f32 {
+    if kind == Detail::None { 0.0 } else { layer(kind).relief }
+}
+
 fn upload<'a>(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
@@ -144,6 +151,7 @@ impl Layer {
         even_out(&mut tints);
         neutralize(&mut tints);
         let (ranks, slopes) = (ranks(&heights), slopes(&heights));
+        let relief = relief(&heights, &ranks);
         let tint = tints.iter().zip(ranks).map(|(t, rank)| [0.5 * t[0], 0.5 * t[1], 0.5 * t[2], rank]).collect();
         let surface = spots.iter().zip(slopes).map(|(spot, [x, y])| {
             let signed = |w: f32, most: f32| 0.5 + 0.5 * (w / most).clamp(-1.0, 1.0);
@@ -154,7 +162,7 @@ impl Layer {
                 spot.glow,
             ]
         });
-        Self { tint: levels(tint), surface: levels(surface.collect()) }
+        Self { tint: levels(tint), surface: levels(surface.collect()), relief }
     }
 }
 
@@ -241,6 +249,16 @@ fn ranks(values: &[f32]) -> Vec<f32> {
     (0..BINS).for_each(|i| below[i + 1] += below[i]);
     let middle = |i: usize| 0.5 * (below[i] + below[i + 1]) as f32 / values.len() as f32;
     bins.into_iter().map(middle).collect()
+}
+
+/// Slope of the line through heights over ranks that fits best.
+fn relief(heights: &[f32], ranks: &[f32]) -> f32 {
+    let sums = heights.iter().zip(ranks).map(|(height, rank)| {
+        let off = f64::from(*rank) - 0.5;
+        (f64::from(*height) * off, off * off)
+    });
+    let (product, square) = sums.fold((0.0, 0.0), |(product, square), (p, s)| (product + p, square + s));
+    (product / square.max(1e-9)) as f32
 }
 
 /// Slopes (rise over run) along both sides, clamped to the stored range, with mean 0: a pattern must not tilt the
@@ -341,6 +359,19 @@ mod tests {
             let most = (0..SIDE - 1).map(step).fold(0.0, f64::max);
             assert!(step(SIDE - 1) <= 1.25 * most, "{kind:?}: {} against {most}", step(SIDE - 1));
         }
+    }
+
+    /// Stones stand higher than ripples, and nothing higher than it is wide.
+    #[test]
+    fn reliefs_are_those_of_the_heights() {
+        let ramp: Vec<f32> = (0..1000).map(|i| 0.3 * i as f32 / 1000.0).collect();
+        assert!((relief(&ramp, &ranks(&ramp)) - 0.3).abs() < 1e-3);
+        for (kind, layer) in patterns() {
+            assert!(layer.relief > 0.001 && layer.relief < 0.3, "{kind:?}: {}", layer.relief);
+        }
+        let relief = |kind| layer(kind).relief;
+        assert!(relief(Detail::Cobbles) > 2.0 * relief(Detail::Beach), "{}", relief(Detail::Beach));
+        assert_eq!(relief_of(Detail::None), 0.0);
     }
 
     /// The tints of every pattern vary, and only lava glows.

@@ -15,7 +15,7 @@ mod plants;
 mod stone;
 mod wet;
 
-pub(crate) use arrays::{PATTERN_ROUGHNESS, PATTERN_STEEPEST, PatternArrays, PatternPool};
+pub(crate) use arrays::{PATTERN_ROUGHNESS, PATTERN_STEEPEST, PatternArrays, PatternPool, relief_of};
 pub(crate) use noise::SIDE;
 
 use crate::planet::{Biomes, Detail};

@@ -110,6 +110,8 @@ pub(crate) fn text() -> String {
         ("NEEDLED", &(Material::Needled as u32)),
         ("FRONDED", &(Material::Fronded as u32)),
         ("BLADED", &(Material::Bladed as u32)),
+        ("FALLEN", &(Material::Fallen as u32)),
+        ("MOSSY", &(Material::Mossy as u32)),
         ("OWN_LEAVES", &f64::from(cover::OWN_LEAVES)),
         ("CANOPY_ROW", &(CANOPY as i32)),
         ("CANOPY_LAYERS", &(CANOPY_LAYERS as i32)),

@@ -1,8 +1,10 @@
-//! Populations to start from, one for each kind of plant and stone.
+//! Populations to start from, one for each kind of plant and stone; `lying` has those that lie on the ground.
+
+mod lying;
 
 use super::{
     Bulbs, Cactus, Conifer, Crown, Crystal, Cushion, Fans, Form, Mushroom, Palm, Population, Stone, Tendrils, Tree,
-    Tuft,
+    Tuft, Wood,
 };
 
 /// A population to start from.
@@ -39,30 +41,10 @@ fn tuft(blades: u32, shape: [f64; 3], head: f64, leaflets: bool) -> Form {
     Form::Tuft(Tuft { blades, width, spread, arch, head, leaflets })
 }
 
-/// A stone: roundness, flatness, stretch; cuts; layers, roughness.
-fn stone(shape: [f64; 3], cuts: u32, skin: [f64; 2]) -> Form {
-    let [roundness, flatness, stretch] = shape;
-    let [layers, roughness] = skin;
-    Form::Stone(Stone { roundness, flatness, stretch, cuts, layers, roughness })
-}
-
 /// Population of a form. `colors`: of wood or stone, and of leaves. `groups`: clumping, and clump size in metres.
 fn of(form: Form, height_m: f64, colors: [[f64; 3]; 2], per_hectare: f64, groups: [f64; 2]) -> Population {
     let ([color, leaf_color], [clumping, clump_m]) = (colors, groups);
     Population { form, height_m, color, leaf_color, per_hectare, clumping, clump_m, ..Population::default() }
-}
-
-/// A population that lies on the ground as stones do: turned with the slope, sunk, still.
-fn lying(population: Population) -> Population {
-    Population {
-        upright: 0.2,
-        lean_deg: 12.0,
-        sunk: 0.15,
-        sway: 0.0,
-        height_spread: 0.7,
-        color_spread: 0.3,
-        ..population
-    }
 }
 
 /// A population that no body hits.
@@ -362,114 +344,16 @@ pub const READY_POPULATIONS: &[ReadyPopulation] = &[
             )
         },
     },
-    ReadyPopulation {
-        name: "Boulder",
-        make: || {
-            lying(of(
-                stone([0.5, 0.25, 1.25], 9, [0.0, 0.45]),
-                1.6,
-                [[0.2, 0.19, 0.17], [0.14, 0.135, 0.115]],
-                14.0,
-                [0.5, 120.0],
-            ))
-        },
-    },
-    ReadyPopulation {
-        name: "Stones",
-        make: || {
-            soft(lying(of(
-                stone([0.95, 0.45, 1.35], 4, [0.0, 0.15]),
-                0.25,
-                [[0.22, 0.205, 0.18], [0.17, 0.155, 0.14]],
-                900.0,
-                [0.6, 40.0],
-            )))
-        },
-    },
-    ReadyPopulation {
-        name: "Scree",
-        make: || {
-            lying(
-                of(
-                    stone([0.02, 0.6, 1.7], 11, [0.25, 0.2]),
-                    0.35,
-                    [[0.19, 0.18, 0.165], [0.13, 0.12, 0.11]],
-                    2500.0,
-                    [0.6, 30.0],
-                )
-                .slopes(24.0, 48.0),
-            )
-        },
-    },
-    ReadyPopulation {
-        name: "Lava block",
-        make: || {
-            lying(
-                of(
-                    stone([0.15, 0.15, 1.2], 10, [0.0, 1.0]),
-                    1.1,
-                    [[0.035, 0.031, 0.03], [0.075, 0.05, 0.04]],
-                    80.0,
-                    [0.7, 90.0],
-                )
-                .slopes(0.0, 50.0),
-            )
-        },
-    },
-    ReadyPopulation {
-        name: "Ice block",
-        make: || {
-            lying(
-                of(
-                    stone([0.05, 0.2, 1.35], 13, [0.1, 0.12]),
-                    1.4,
-                    [[0.5, 0.64, 0.72], [0.75, 0.8, 0.84]],
-                    18.0,
-                    [0.7, 150.0],
-                )
-                .temperatures(-200.0, -4.0),
-            )
-        },
-    },
-    ReadyPopulation {
-        name: "Crystals",
-        make: || Population {
-            sway: 0.0,
-            upright: 0.5,
-            ..of(Form::Crystal(Crystal::default()), 1.0, [[0.16, 0.1, 0.24], [0.55, 0.42, 0.68]], 25.0, [0.8, 60.0])
-                .slopes(0.0, 60.0)
-        },
-    },
-    ReadyPopulation {
-        name: "Regolith stone",
-        make: || {
-            lying(
-                of(
-                    stone([0.6, 0.3, 1.15], 6, [0.0, 0.8]),
-                    0.4,
-                    [[0.16, 0.15, 0.14], [0.11, 0.105, 0.1]],
-                    260.0,
-                    [0.7, 60.0],
-                )
-                .slopes(0.0, 50.0),
-            )
-        },
-    },
-    ReadyPopulation {
-        name: "Ventifact",
-        make: || {
-            lying(
-                of(
-                    stone([0.3, 0.4, 1.5], 4, [0.55, 0.12]),
-                    0.7,
-                    [[0.3, 0.2, 0.13], [0.22, 0.14, 0.09]],
-                    150.0,
-                    [0.6, 80.0],
-                )
-                .slopes(0.0, 45.0),
-            )
-        },
-    },
+    ReadyPopulation { name: "Fallen trunk", make: lying::fallen_trunk },
+    ReadyPopulation { name: "Twigs", make: lying::twigs },
+    ReadyPopulation { name: "Boulder", make: lying::boulder },
+    ReadyPopulation { name: "Stones", make: lying::stones },
+    ReadyPopulation { name: "Scree", make: lying::scree },
+    ReadyPopulation { name: "Lava block", make: lying::lava_block },
+    ReadyPopulation { name: "Ice block", make: lying::ice_block },
+    ReadyPopulation { name: "Crystals", make: lying::crystals },
+    ReadyPopulation { name: "Regolith stone", make: lying::regolith_stone },
+    ReadyPopulation { name: "Ventifact", make: lying::ventifact },
     ReadyPopulation {
         name: "Alien bulbs",
         make: || of(Form::Bulbs(Bulbs::default()), 3.0, [[0.1, 0.06, 0.14], [0.5, 0.16, 0.22]], 70.0, [0.7, 50.0]),
