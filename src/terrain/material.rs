@@ -20,9 +20,11 @@ pub(crate) fn patch_tile_m(biome: &Biome) -> f64 {
 /// The ground at a point, for footsteps, tyres and dust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct GroundMaterial {
+pub struct GroundMaterial<'a> {
     /// Close-up pattern of the ground.
     pub detail: Detail,
+    /// Texture set that is shown in place of the pattern: its path, as the preset has it. None while it is not loaded.
+    pub textures: Option<&'a str>,
     /// Whether the point lies in a patch of its biome, which has the second colour.
     pub is_patch: bool,
     /// Whether steep ground shows the rock that biomes share.
@@ -50,8 +52,8 @@ impl GroundMaterials {
     }
 
     /// The material at a point. `sample`: the sample in this direction, with its height and biome.
-    pub fn at(&self, dir_planet: DVec3, sample: &Sample) -> GroundMaterial {
-        let none = GroundMaterial { detail: Detail::None, is_patch: false, is_rock: sample.is_rock };
+    pub fn at(&self, dir_planet: DVec3, sample: &Sample) -> GroundMaterial<'_> {
+        let none = GroundMaterial { detail: Detail::None, textures: None, is_patch: false, is_rock: sample.is_rock };
         if sample.is_rock {
             return GroundMaterial { detail: self.biomes.cliff_detail, ..none };
         }
@@ -60,7 +62,10 @@ impl GroundMaterials {
             let at = dir_planet * (self.radius_m + sample.height_m) / patch_tile_m(biome);
             biome.patches > 0.0 && noise.ground_at(DVec3::new(at.z, at.x, at.y), 0.0) < biome.patches
         });
-        GroundMaterial { detail: if is_patch { biome.detail_of_patches() } else { biome.detail }, is_patch, ..none }
+        let has_own = is_patch && biome.patch_detail != Detail::None;
+        let textures = biome.textures.set().filter(|_| !has_own).map(|_| biome.textures.path());
+        let detail = if is_patch { biome.detail_of_patches() } else { biome.detail };
+        GroundMaterial { detail, textures, is_patch, ..none }
     }
 }
 
