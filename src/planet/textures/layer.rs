@@ -43,19 +43,21 @@ impl Layer {
     #[cfg(feature = "render")]
     pub(crate) fn of_pattern(mut texels: Vec<Texel>, slopes: Vec<[f32; 2]>) -> Self {
         even_out(&mut texels, 0.0);
-        Self::new(texels, slopes)
+        neutralize(&mut texels, 4);
+        Self::new(&texels, slopes)
     }
 
     /// The layer of a texture set. Slopes are rise over run.
     pub(super) fn of_set(mut texels: Vec<Texel>, slopes: Vec<[f32; 2]>) -> Self {
         scale_to_one(&mut texels);
         even_out(&mut texels, UNEVEN);
-        Self::new(texels, slopes)
+        // Pictures may have far more contrast than can be stored.
+        neutralize(&mut texels, 40);
+        Self::new(&texels, slopes)
     }
 
-    fn new(mut texels: Vec<Texel>, slopes: Vec<[f32; 2]>) -> Self {
-        neutralize(&mut texels);
-        let (ranks, slopes) = (ranks(&texels), levelled(slopes));
+    fn new(texels: &[Texel], slopes: Vec<[f32; 2]>) -> Self {
+        let (ranks, slopes) = (ranks(texels), levelled(slopes));
         let tint = texels.iter().zip(ranks).map(|(texel, rank)| {
             let [r, g, b] = texel.tint;
             [0.5 * r, 0.5 * g, 0.5 * b, rank]
@@ -128,12 +130,18 @@ fn scale_to_one(texels: &mut [Texel]) {
     }
 }
 
-/// Scales each channel to a mean of 1, with no value above 2, the largest that is stored.
-fn neutralize(texels: &mut [Texel]) {
-    for _ in 0..4 {
+/// Scales each channel to a mean of 1, with no value above 2, the largest that is stored. Each of the `rounds` brings
+/// the mean nearer to 1 where values were above.
+fn neutralize(texels: &mut [Texel], rounds: usize) {
+    const NEAR: f64 = 1e-4;
+    for round in 0..rounds {
         let mut sums = [0.0_f64; 3];
         for texel in texels.iter() {
             sums.iter_mut().zip(texel.tint).for_each(|(sum, c)| *sum += f64::from(c.clamp(0.0, 2.0)));
+        }
+        // The first rounds are always made: those of built-in patterns.
+        if round >= 4 && sums.iter().all(|sum| (sum / texels.len() as f64 - 1.0).abs() < NEAR) {
+            return;
         }
         let scales = sums.map(|sum| (texels.len() as f64 / sum.max(1e-9)) as f32);
         for texel in texels.iter_mut() {

@@ -246,7 +246,8 @@ mod tests {
         assert_eq!(grown(&first, &shown, &body[0], 9), None);
         let second = grown(&first, &shown, &body[1], 9).unwrap();
         assert_eq!(second, [kind(Detail::Sand), a.clone(), b.clone()]);
-        let [_, other] = body;
+        let [gone, other] = body;
+        drop(gone);
         let wanted = [c.clone(), kind(Detail::Ice)];
         let third = grown(&second, &shown, &wanted, 9).unwrap();
         assert_eq!(third, [kind(Detail::Sand), kind(Detail::Ice), b.clone(), c.clone()]);
