@@ -28,6 +28,9 @@ pub(crate) const WRAP_M: f64 = 1024.0;
 /// triangle. Its period divides [`WRAP_M`] / [`TURN`], so that the rotated pattern repeats after [`WRAP_M`], too.
 const FINE: f64 = 0.31;
 const TURN: f64 = 5.0;
+/// Period in metres of the finer scale of a texture set, so fine that even at one's feet only its mean is seen: stones
+/// of an artist have a size, and no smaller ones lie within them.
+const NO_FINE_M: f64 = 1e-5;
 
 /// Cells of the biome table whose ground is highlighted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -123,11 +126,11 @@ fn shared_rock(biomes: &Biomes) -> Biome {
 fn numbers(biome: &Biome, biomes: &Biomes, patterns: &[Pattern]) -> [[f64; 4]; ROWS] {
     let whole = |length: f64, parts: f64, size: f64| length / parts / (length / parts / size).round().max(1.0);
     let size_m = whole(WRAP_M, 1.0, biome.detail_m);
-    let fine_m = whole(WRAP_M, TURN, FINE * size_m);
     let patch_m = material::patch_tile_m(biome);
     let layer = |wanted: Pattern| patterns.iter().position(|known| *known == wanted).map(|layer| layer as f64);
     let of_kind = |kind: Detail| layer(Pattern::Kind(kind)).unwrap_or(-1.0);
     let own = biome.textures.set().and_then(|set| layer(Pattern::Set(set.clone())));
+    let fine_m = if own.is_some() { NO_FINE_M } else { whole(WRAP_M, TURN, FINE * size_m) };
     let own = own.unwrap_or_else(|| of_kind(biome.detail));
     let of_patches = if biome.patch_detail == Detail::None { own } else { of_kind(biome.patch_detail) };
     let cosine = |degrees: f64| degrees.to_radians().cos();

@@ -1,5 +1,7 @@
 //! Texture sets of biomes: what is read, what is refused, and that only the look depends on them.
 
+use crate::support::dice::Dice;
+use crate::support::png::changed_png;
 use crate::support::textures::{even, png, stripes};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -141,11 +143,33 @@ fn what_is_wrong_with_a_picture_is_told() {
         why(&|pack| drop(pack.insert("t/brick_ao.png", png([8193, 1], |_, _| [9; 3])))),
         "t/brick_ao.png is 8193 x 1 pixels; use 1 to 8192 along a side"
     );
-    let half = |pack: &mut Pack| drop(pack.get_mut("t/brick_albedo.png").map(|bytes| bytes.truncate(90)));
+    let half = |pack: &mut Pack| pack.get_mut("t/brick_albedo.png").unwrap().truncate(90);
     let broken = why(&half);
     assert!(broken.starts_with("t/brick_albedo.png is broken: ") && broken.ends_with("save the picture anew"));
     let not_jpeg = why(&|pack| drop(pack.insert("t/brick_ao.png", vec![0xff, 0xd8, 0xff, 0xe0, 0, 1])));
     assert!(not_jpeg.starts_with("t/brick_ao.png is broken: "), "{not_jpeg}");
+}
+
+#[test]
+fn changed_pictures_are_read_or_refused() {
+    let (mut dice, whole) = (Dice(11), bricks());
+    let names: Vec<&str> = whole.keys().copied().collect();
+    let mut refused = 0;
+    for i in 0..150 {
+        let mut pack = whole.clone();
+        let name = names[i % names.len()];
+        pack.insert(name, changed_png(&whole[name], &mut dice));
+        if let (_, Some(why)) = read("t/brick_albedo.png", &pack) {
+            assert!(why.starts_with(name) && why.len() < 300, "{why}");
+            refused += 1;
+        }
+    }
+    assert!((20..150).contains(&refused), "{refused} of 150 refused");
+}
+
+#[test]
+fn no_random_planet_has_a_set() {
+    assert!((0..100).all(|seed| tellus::planet::random::random(seed).texture_sets().next().is_none()));
 }
 
 #[test]
