@@ -58,7 +58,7 @@ fn a_set_is_read_with_all_its_pictures_and_each_of_them_counts() {
     for name in bricks().keys() {
         let mut other = bricks();
         // Another picture of the same mean.
-        other.insert(name, png([64; 2], |x, y| if (x / 8 + y / 8) % 2 == 0 { [200; 3] } else { [100; 3] }));
+        other.insert(name, png([64; 2], |x, y| if (x / 8 + y / 8).is_multiple_of(2) { [200; 3] } else { [100; 3] }));
         found.push(read("t/brick_albedo.png", &other).0);
         if *name != "t/brick_albedo.png" {
             other.remove(name);
@@ -103,7 +103,8 @@ fn pictures_are_png_jpeg_or_openexr() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     // Linear colours, in tiles of the layout that the crate chooses.
-    let pixels = |x: usize, y: usize| if (x + y) % 2 == 0 { (0.9_f32, 0.2_f32, 0.0_f32) } else { (0.1, 0.2, 0.5) };
+    let pixels =
+        |x: usize, y: usize| if (x + y).is_multiple_of(2) { (0.9_f32, 0.2_f32, 0.0_f32) } else { (0.1, 0.2, 0.5) };
     exr::prelude::write_rgb_file(at("a_col.exr"), 600, 40, pixels).unwrap();
     std::fs::copy("docs/aurel.jpg", at("a_height.jpg")).unwrap();
     std::fs::write(at("a_ao.png"), even(255)).unwrap();

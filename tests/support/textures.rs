@@ -13,7 +13,7 @@ pub fn png([width, height]: [u32; 2], pixel: impl Fn(u32, u32) -> [u8; 3]) -> Ve
 
 /// Bright and dark stripes across the rows, each of 16 of 512 pixels.
 pub fn stripes() -> Vec<u8> {
-    png([512; 2], |x, _| if x / 16 % 2 == 0 { [230, 220, 200] } else { [60, 50, 40] })
+    png([512; 2], |x, _| if (x / 16).is_multiple_of(2) { [230, 220, 200] } else { [60, 50, 40] })
 }
 
 /// One even grey.
