@@ -3,7 +3,7 @@
 //! - `set`: what is kept of a set, and the reference to it
 //! - `names`: the names of its pictures, by that of its colour picture
 //! - `read`: finds and reads the pictures; `decode`: their formats; `shrink`: their size
-//! - `compose`: one texture layer from the pictures; [`layer`]: such a layer, as built-in patterns have it, too
+//! - `compose`: one texture layer from the pictures; `layer`: such a layer, as built-in patterns have it, too
 //!
 //! A biome whose set is missing shows its built-in pattern.
 
