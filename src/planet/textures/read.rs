@@ -6,7 +6,7 @@ use super::names::{Role, beside};
 use super::set::TextureSet;
 use super::shrink::Pixel;
 use crate::planet::open::{Opened, open};
-use crate::planet::picture::{Budget, MAX_WORK_BYTES};
+use crate::planet::picture::{Budget, MAX_BYTES, MAX_WORK_BYTES};
 use std::io::{self, BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 use std::sync::Arc;
@@ -82,6 +82,14 @@ fn read<'a>(
         }
     }
     let set = maps.composed(others);
-    budget.keep_layer(set.hash(), set.bytes()).map_err(|why| format!("{} {why}", color.display()))?;
+    // Smaller pictures would not help: all sets take as much.
+    budget.keep_layer(set.hash(), set.bytes()).map_err(|_| {
+        format!(
+            "{} finds no room: the planet's pictures and texture sets keep {} MiB together; use smaller height maps, or \
+             one set in several biomes",
+            color.display(),
+            MAX_BYTES >> 20
+        )
+    })?;
     Ok(Arc::new(set))
 }
