@@ -116,8 +116,13 @@ pub unsafe extern "C" fn tellus_planet_from_text(
         // SAFETY: the caller's promise.
         let folder = unsafe { optional_text(cache_folder, "cache_folder") }?;
         let mut planet = Planet::from_text(name, preset).map_err(|error| error.to_string())?;
-        if let Some((path, why)) = planet.load_pictures().into_iter().next() {
-            return Err(format!("{name}: {path}: {why}"));
+        for (path, why) in planet.load_pictures() {
+            let why = format!("{name}: {path}: {why}");
+            // A biome whose textures cannot be read shows its pattern.
+            if planet.texture_sets().all(|(textures, _)| textures != path) {
+                return Err(why);
+            }
+            log::warn!("{why}");
         }
         ready(planet, folder)
     })

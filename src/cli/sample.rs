@@ -131,7 +131,7 @@ fn material_name(material: &GroundMaterial) -> String {
     } else {
         ""
     };
-    format!("{}{place}", material.detail.name())
+    format!("{}{place}", material.textures.unwrap_or(material.detail.name()))
 }
 
 fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
@@ -173,7 +173,12 @@ pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: 
         "precipitation_mm": sample.precipitation_mm,
         "moisture": sample.moisture,
         "biome": biome_name(terrain, sample),
-        "material": { "detail": material.detail.name(), "patch": material.is_patch, "rock": material.is_rock },
+        "material": {
+            "detail": material.detail.name(),
+            "textures": material.textures,
+            "patch": material.is_patch,
+            "rock": material.is_rock,
+        },
         "canopy_cover": canopy.cover,
         "canopy_height_m": canopy.height_m,
         "populations": populations.map(|(name, n)| json!({ "name": name, "per_hectare": n })).collect::<Vec<_>>(),

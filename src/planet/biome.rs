@@ -2,6 +2,7 @@
 
 use super::Biomes;
 use super::param::{Choice, Domain, Stage, Unit, choice, linear, log, params};
+use super::textures::TextureSetFile;
 
 /// Period of a pattern in metres. It must stay below the length at which shaders wrap positions (`WRAP_M` in
 /// `render/biome_table.rs`).
@@ -113,6 +114,10 @@ params! {
         detail: Detail = Detail::None, "Detail", Unit::None, Domain::Choice, Stage::Material;
         /// Close-up pattern of the patches. With None they have that of the biome.
         patch_detail: Detail = Detail::None, "Patch detail", Unit::None, Domain::Choice, Stage::Material;
+        /// Colour picture of a texture set, which is shown in place of the close-up pattern. Pictures of normals,
+        /// roughness, height and occlusion are found beside it by their names.
+        #[serde(skip_serializing_if = "TextureSetFile::is_none")]
+        textures: TextureSetFile = TextureSetFile::default(), "Textures", Unit::None, Domain::File { max_chars: 256 }, Stage::Material;
         /// Period of the pattern.
         detail_m: f64 = 2.0, "Detail size", Unit::Metres, DETAIL_SIZE, Stage::Material;
         /// Strength of the pattern: 0 is an even surface.

@@ -57,7 +57,7 @@ pub struct SaveError {
 }
 
 impl Planet {
-    /// Reads and checks a preset and the pictures it refers to.
+    /// Reads and checks a preset and the files it refers to. A texture set that cannot be read is a warning in the log.
     pub fn load(path: impl AsRef<Path>) -> Result<Planet, LoadError> {
         Self::load_with_text(path.as_ref()).map(|(planet, _)| planet)
     }
@@ -94,7 +94,8 @@ impl Planet {
 
     /// Reads and checks a preset from text, and its files from memory: of an asset pack, say. `fetch` gives the bytes
     /// of the file at a path, as it is written in the preset, or says why it cannot: those of PNG or OpenEXR pictures,
-    /// and those of the edits if they are in a file beside the preset.
+    /// those that a texture set may have ([`Planet::load_pictures_from`]), and those of the edits if they are in a file
+    /// beside the preset.
     ///
     /// ```
     /// use tellus::planet::Planet;
@@ -127,6 +128,12 @@ impl Planet {
         let (mut planet, edits) = beside::parsed(file, text, fetch)?;
         beside::checked(file, text, &planet, edits.as_ref())?;
         let problems = complete(&mut planet);
+        // Without its textures a biome still has a pattern, and all heights are right.
+        let sets: Vec<ParamPath> = planet.texture_sets().map(|(path, _)| path).collect();
+        let (textures, problems): (Vec<_>, Vec<_>) = problems.into_iter().partition(|(path, _)| sets.contains(path));
+        if !textures.is_empty() {
+            log::warn!("{}", beside::placed(file, text, edits.as_ref(), textures));
+        }
         if problems.is_empty() { Ok(planet) } else { Err(beside::placed(file, text, edits.as_ref(), problems)) }
     }
 

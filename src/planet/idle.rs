@@ -160,7 +160,8 @@ fn biome_idle(biome: &Biome, name: &str) -> Idle {
         "patch_color" | "patch_m" | "patch_detail" => when(biome.patches == 0.0, "Patches is 0"),
         "detail_m" | "detail_strength" => {
             let has_patches = biome.patches > 0.0 && biome.patch_detail != Detail::None;
-            when(biome.detail == Detail::None && !has_patches, "The biome has no detail")
+            let has_own = biome.detail != Detail::None || !biome.textures.is_none();
+            when(!has_own && !has_patches, "The biome has no detail")
         }
         "steep_key" | "steep_from_deg" | "steep_to_deg" => {
             when(biome.steep != Steep::Biome, "No other biome replaces it on steep ground")

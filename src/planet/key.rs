@@ -20,17 +20,18 @@ impl Key {
         Self(hash.0)
     }
 
-    /// The key of everything in a preset but the editor's own section, with the pixels of its pictures and the
-    /// triangles of its meshes. The same on every machine, wherever the preset is.
+    /// The key of everything in a preset but the editor's own section, with the pixels of its pictures and texture sets
+    /// and the triangles of its meshes. The same on every machine, wherever the preset is.
     pub fn of_planet(planet: &Planet) -> Self {
         let bare = Planet { editor: None, ..planet.clone() };
         let pictures: Vec<_> = bare.pictures().map(|(_, file, extent)| file.picture(extent)).collect();
         let meshes: Vec<_> = bare.meshes().map(|(_, file)| file.mesh()).collect();
-        // A planet without meshes keeps the key that it had before there were any.
-        if meshes.is_empty() {
-            Self::of(&(bare.to_text(), pictures))
-        } else {
-            Self::of(&(bare.to_text(), pictures, meshes))
+        let sets: Vec<_> = bare.texture_sets().map(|(_, file)| file.set()).collect();
+        // A planet without meshes and sets keeps the key that it had before there were any.
+        match (meshes.is_empty(), sets.is_empty()) {
+            (true, true) => Self::of(&(bare.to_text(), pictures)),
+            (false, true) => Self::of(&(bare.to_text(), pictures, meshes)),
+            (_, false) => Self::of(&(bare.to_text(), pictures, meshes, sets)),
         }
     }
 

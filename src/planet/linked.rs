@@ -94,6 +94,11 @@ impl<L: Linked> LinkedFile<L> {
         &self.path
     }
 
+    /// Whether it names no file.
+    pub fn is_none(&self) -> bool {
+        self.path.is_empty()
+    }
+
     /// Where the file is. None without a path, or with a relative path before the planet has a folder.
     pub fn location(&self) -> Option<PathBuf> {
         let path = Path::new(&self.path);

@@ -20,7 +20,8 @@
 //! - [`structure`]: plates, weather and rivers of a preset
 //! - [`life`]: populations of plants, stones and other objects
 //! - [`edits`]: changes of the ground at a place, made by hand
-//! - [`linked`]: references to files; [`picture`] and [`mesh`]: those files; `pictures`: all those of a planet
+//! - [`linked`]: references to files; [`picture`], [`textures`] and [`mesh`]: those files; `pictures`: all those of a
+//!   planet
 //! - [`watch`]: a preset that changes on disk while a game runs
 //! - [`shipped`]: the presets that come with the program
 //! - `idle`: parameters that have no effect where the others stand
@@ -72,6 +73,7 @@ pub mod structure;
 pub mod table;
 mod tables;
 pub(crate) mod text;
+pub mod textures;
 pub mod validate;
 pub mod watch;
 

@@ -2,7 +2,7 @@
 //!
 //! Files are compared by their real paths: through links, and however the paths are written.
 
-use super::{Planet, beside};
+use super::{FileContent, FileKey, Planet, beside};
 use std::fs::canonicalize;
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ struct Source {
 }
 
 impl Sources {
-    /// The files of a planet: its preset, the file of its edits, its pictures and meshes.
+    /// The files of a planet: its preset, the file of its edits, its pictures, texture sets and meshes.
     pub fn of_preset(preset: &Path, planet: &Planet) -> Self {
         let mut sources = Self::of_planet(planet);
         sources.add(preset, "the preset");
@@ -27,16 +27,17 @@ impl Sources {
         sources
     }
 
-    /// The pictures and meshes of a planet, whose preset may have no file.
+    /// The pictures, texture sets and meshes of a planet, whose preset may have no file.
     pub fn of_planet(planet: &Planet) -> Self {
         let mut sources = Self::default();
-        let pictures: Vec<PathBuf> = planet.pictures().filter_map(|(_, file, _)| file.location()).collect();
-        for file in planet.linked_paths() {
-            let is_picture = pictures.contains(&file);
-            sources.add(
-                &file,
-                if is_picture { "a picture that the planet reads" } else { "a mesh that the planet reads" },
-            );
+        for (key, content) in planet.linked_files() {
+            let what = match key {
+                FileKey::Picture(_) => "a picture that the planet reads",
+                FileKey::Textures(_) => "a texture that the planet reads",
+                FileKey::Mesh(_) => "a mesh that the planet reads",
+            };
+            let others = content.iter().flat_map(FileContent::others);
+            others.map(PathBuf::as_path).chain([key.file()]).for_each(|file| sources.add(file, what));
         }
         sources
     }

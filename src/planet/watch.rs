@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Watches the file of a preset, and the pictures, meshes and the edits file that it refers to.
+/// Watches the file of a preset, and the pictures, texture sets, meshes and the edits file that it refers to.
 ///
 /// It looks at dates and lengths when it is asked, needs no thread, and works on network drives. A game asks in every
 /// frame and gives the planet to its [`Builder`](crate::tiles::Builder), which rebuilds what the change touches.
@@ -39,9 +39,9 @@ impl PresetWatch {
     pub fn every(path: impl AsRef<Path>, interval: Duration) -> Self {
         let path = path.as_ref().to_owned();
         // The files of a preset that cannot be read yet are known once it can.
-        // Only the document of a mesh names the files beside it.
+        // Which files belong to a mesh or a texture set shows when it is read.
         let named = Planet::open(&path).map(|mut planet| {
-            if planet.meshes().next().is_some() {
+            if planet.meshes().next().is_some() || planet.texture_sets().next().is_some() {
                 planet.load_pictures();
             }
             planet.linked_paths()

@@ -1,8 +1,9 @@
 //! Biomes as two small textures for `material.wgsl`: the biome of each cell of the biome table (row 0 is the hottest or
 //! highest), and a column of parameters for each biome.
 
+use super::gpu;
 use super::life::{CANOPY_ROWS, CanopyRows};
-use super::{gpu, patterns};
+use super::patterns::{self, Pattern};
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
 use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 use crate::terrain::material;
@@ -29,6 +30,9 @@ pub(crate) const WRAP_M: f64 = 1024.0;
 /// triangle. Its period divides [`WRAP_M`] / [`TURN`], so that the rotated pattern repeats after [`WRAP_M`], too.
 const FINE: f64 = 0.31;
 const TURN: f64 = 5.0;
+/// Period in metres of the finer scale of a texture set, so fine that even at one's feet only its mean is seen: stones
+/// of an artist have a size, and no smaller ones lie within them.
+const NO_FINE_M: f64 = 1e-5;
 
 /// Cells of the biome table whose ground is highlighted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -66,8 +70,13 @@ pub(crate) struct BiomeTexels {
 }
 
 impl BiomeTexels {
-    /// `kinds`: kinds of pattern in the order of their texture layers.
-    pub(crate) fn new(biomes: &Biomes, kinds: &[Detail], marked: Option<&MarkedCells>, canopies: &CanopyRows) -> Self {
+    /// `patterns`: in the order of their texture layers.
+    pub(crate) fn new(
+        biomes: &Biomes,
+        patterns: &[Pattern],
+        marked: Option<&MarkedCells>,
+        canopies: &CanopyRows,
+    ) -> Self {
         let (columns, rows) = (biomes.table.columns().max(1), biomes.table.rows().len().max(1));
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
         let id = |(column, row)| {
@@ -81,9 +90,9 @@ impl BiomeTexels {
             }
         };
         for (column, biome) in biomes.palette.iter().take(MAX_BIOMES).enumerate() {
-            put(column, numbers(biome, biomes, kinds));
+            put(column, numbers(biome, biomes, patterns));
         }
-        put(ROCK, numbers(&shared_rock(biomes), biomes, kinds));
+        put(ROCK, numbers(&shared_rock(biomes), biomes, patterns));
         put(RULES, rules(biomes));
         for (column, biome) in biomes.palette.iter().take(MAX_BIOMES).enumerate() {
             let (count, rows) = canopies.of_biome(biome.key);
@@ -116,13 +125,20 @@ fn shared_rock(biomes: &Biomes) -> Biome {
     }
 }
 
-fn numbers(biome: &Biome, biomes: &Biomes, kinds: &[Detail]) -> [[f64; 4]; ROWS] {
+fn numbers(biome: &Biome, biomes: &Biomes, patterns: &[Pattern]) -> [[f64; 4]; ROWS] {
     let whole = |length: f64, parts: f64, size: f64| length / parts / (length / parts / size).round().max(1.0);
     let size_m = whole(WRAP_M, 1.0, biome.detail_m);
-    let fine_m = whole(WRAP_M, TURN, FINE * size_m);
     let patch_m = material::patch_tile_m(biome);
-    let layer = |kind: Detail| kinds.iter().position(|known| *known == kind).map_or(-1.0, |layer| layer as f64);
-    let relief = |kind: Detail| f64::from(patterns::relief_of(kind));
+    // Texture layer and relief of a pattern.
+    let shown = |wanted: Pattern| {
+        let layer = patterns.iter().position(|known| *known == wanted);
+        layer.map(|layer| [layer as f64, patterns[layer].relief()])
+    };
+    let of_kind = |kind: Detail| shown(Pattern::Kind(kind)).unwrap_or([-1.0, 0.0]);
+    let own = biome.textures.set().and_then(|set| shown(Pattern::Set(set.clone())));
+    let fine_m = if own.is_some() { NO_FINE_M } else { whole(WRAP_M, TURN, FINE * size_m) };
+    let own = own.unwrap_or_else(|| of_kind(biome.detail));
+    let of_patches = if biome.patch_detail == Detail::None { own } else { of_kind(biome.patch_detail) };
     let cosine = |degrees: f64| degrees.to_radians().cos();
     let [into, from, to] = biomes.steep_rule(biome).map_or([-1.0, 0.0, 0.0], |rule| {
         [rule.into.map_or(ROCK, |index| index) as f64, cosine(rule.from_deg), cosine(rule.to_deg)]
@@ -135,8 +151,8 @@ fn numbers(biome: &Biome, biomes: &Biomes, kinds: &[Detail]) -> [[f64; 4]; ROWS]
         [size_m, biome.detail_strength, biome.flow_m_s, biome.glow],
         four(biome.glow_color, fine_m),
         [into, from, to, 0.0],
-        [layer(biome.detail), layer(biome.detail_of_patches()), 0.0, 0.0],
-        [relief(biome.detail), relief(biome.detail_of_patches()), 0.0, 0.0],
+        [own[0], of_patches[0], 0.0, 0.0],
+        [own[1], of_patches[1], 0.0, 0.0],
     ]
 }
 

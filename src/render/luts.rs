@@ -10,7 +10,7 @@ use super::border_tile;
 use super::cloud_map::{CloudFrame, CloudMaps};
 use super::gpu::{self, Slot};
 use super::life::CanopyRows;
-use super::patterns::{self, PatternArrays, PatternPool};
+use super::patterns::{self, Pattern, PatternArrays, PatternPool};
 use super::scene::Scene;
 use super::screen_pass::Shared;
 use super::shared::{GLOW_NODES, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SEEN_NODES, SKY_LUT_SIZE, TURNS_AT_ONCE};
@@ -164,6 +164,8 @@ pub(crate) struct Luts {
     clouds: CloudMaps,
     biomes: BiomeTextures,
     patterns: PatternArrays,
+    /// The patterns that the planet shows.
+    shown_patterns: Arc<[Pattern]>,
     /// The cube with the world map that a debug view shows, and what is in it.
     map_picture: wgpu::TextureView,
     shown_map: Option<(MapView, [Option<Key>; 2])>,
@@ -190,7 +192,8 @@ impl Luts {
         let clouds = CloudMaps::new(device);
         let biome_texels = BiomeTexels::new(&Biomes::default(), &[], None, &CanopyRows::default());
         let biomes = BiomeTextures::with(device, queue, &biome_texels);
-        let patterns = shared.patterns.with(device, queue, &[]);
+        let shown_patterns: Arc<[Pattern]> = [].into();
+        let patterns = shared.patterns.with(device, queue, &shown_patterns);
         let map_picture = write_map(device, queue, &no_map());
         let groups = Groups::new(device, shared, &air, [&clouds.cubes, &map_picture], (&biomes, &patterns));
         Self {
@@ -198,6 +201,7 @@ impl Luts {
             clouds,
             biomes,
             patterns,
+            shown_patterns,
             map_picture,
             shown_map: None,
             groups,
@@ -240,16 +244,19 @@ impl Luts {
         let (planet, keys) = (revision.planet(), revision.keys());
         let biome_key = (keys.materials(), marked.cloned(), canopies);
         let is_stale = self.biome_key.as_ref() != Some(&biome_key);
-        let added = if is_stale { patterns::kinds_of(&planet.biomes) } else { Vec::new() };
-        // Another body may have added kinds: the arrays without them are dropped once nobody holds them.
-        let patterns = shared.patterns.with(device, queue, &added);
-        if patterns != self.patterns {
+        if is_stale {
+            self.shown_patterns = patterns::patterns_of(&planet.biomes);
+        }
+        // Another body may have made new arrays: the old ones are dropped once nobody holds them.
+        let patterns = shared.patterns.with(device, queue, &self.shown_patterns);
+        let has_moved = patterns != self.patterns;
+        if has_moved {
             self.patterns = patterns;
             self.bind(device, shared);
         }
-        if is_stale {
+        if is_stale || has_moved {
             let marked = marked.map(|marked| &**marked);
-            let texels = BiomeTexels::new(&planet.biomes, self.patterns.kinds(), marked, &biome_key.2);
+            let texels = BiomeTexels::new(&planet.biomes, self.patterns.patterns(), marked, &biome_key.2);
             self.write_biomes(device, queue, shared, texels);
             self.biome_key = Some(biome_key);
         }

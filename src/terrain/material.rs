@@ -20,9 +20,11 @@ pub(crate) fn patch_tile_m(biome: &Biome) -> f64 {
 /// The ground at a point, for footsteps, tyres and dust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct GroundMaterial {
+pub struct GroundMaterial<'a> {
     /// Close-up pattern of the ground.
     pub detail: Detail,
+    /// Texture set that is shown in place of the pattern: its path, as the preset has it. None while it is not loaded.
+    pub textures: Option<&'a str>,
     /// Whether the point lies in a patch of its biome, which has the second colour.
     pub is_patch: bool,
     /// Whether steep ground shows the rock that biomes share.
@@ -50,8 +52,8 @@ impl GroundMaterials {
     }
 
     /// The material at a point. `sample`: the sample in this direction, with its height and biome.
-    pub fn at(&self, dir_planet: DVec3, sample: &Sample) -> GroundMaterial {
-        let none = GroundMaterial { detail: Detail::None, is_patch: false, is_rock: sample.is_rock };
+    pub fn at(&self, dir_planet: DVec3, sample: &Sample) -> GroundMaterial<'_> {
+        let none = GroundMaterial { detail: Detail::None, textures: None, is_patch: false, is_rock: sample.is_rock };
         if sample.is_rock {
             return GroundMaterial { detail: self.biomes.cliff_detail, ..none };
         }
@@ -60,13 +62,17 @@ impl GroundMaterials {
             let at = dir_planet * (self.radius_m + sample.height_m) / patch_tile_m(biome);
             biome.patches > 0.0 && noise.ground_at(DVec3::new(at.z, at.x, at.y), 0.0) < biome.patches
         });
-        GroundMaterial { detail: if is_patch { biome.detail_of_patches() } else { biome.detail }, is_patch, ..none }
+        let has_own = is_patch && biome.patch_detail != Detail::None;
+        let textures = biome.textures.set().filter(|_| !has_own).map(|_| biome.textures.path());
+        let detail = if is_patch { biome.detail_of_patches() } else { biome.detail };
+        GroundMaterial { detail, textures, is_patch, ..none }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::planet::textures::{SIDE, TextureSet, TextureSetFile};
     use crate::planet::{Fbm, Layer, Planet, Shape, Steep, Table};
     use crate::sphere::LatLon;
     use std::sync::Arc;
@@ -98,6 +104,7 @@ mod tests {
             let dir = LatLon::from_degrees(-60.0 + 0.006 * i, 137.508 * i % 360.0 - 180.0).direction();
             let sample = terrain.sample(dir);
             let material = materials.at(dir, &sample);
+            assert_eq!(material.textures, None);
             let expected = match (material.is_rock, material.is_patch) {
                 (true, _) => Detail::Granite,
                 (false, true) => Detail::Moss,
@@ -113,5 +120,25 @@ mod tests {
         // Between texels the noise is nearer to its mean, so rare patches are a little rarer.
         assert!((share - 0.3).abs() < 0.03, "{patches} of {rest} in patches");
         assert!(rocks > 20 && rest > 10_000, "{rocks} on rock, {rest} elsewhere");
+    }
+
+    #[test]
+    fn a_texture_set_is_named_where_it_is_shown() {
+        let set = TextureSet::of_colors(vec![[0.5; 3]; SIDE * SIDE]);
+        let biome = Biome { detail: Detail::Sand, textures: TextureSetFile::holding(set), ..Biome::default() };
+        let patches =
+            [Detail::None, Detail::Moss].map(|patch_detail| Biome { patch_detail, patches: 1.0, ..biome.clone() });
+        let missing = Biome { textures: "gone.png".to_owned().into(), ..biome.clone() };
+        let shown = [Some("rock_albedo.png"), Some("rock_albedo.png"), None, None];
+        let details = [Detail::Sand, Detail::Sand, Detail::Moss, Detail::Sand];
+        let biomes = [biome].into_iter().chain(patches).chain([missing]);
+        for ((biome, shown), detail) in biomes.zip(shown).zip(details) {
+            let table = Table::uniform(biome.key, 2, 2);
+            let biomes = Biomes { palette: vec![biome], table, ..Biomes::default() };
+            let terrain = Terrain::try_new(Arc::new(Planet { biomes, water: None, ..Planet::default() })).unwrap();
+            let (materials, dir) = (GroundMaterials::new(&terrain), LatLon::from_degrees(3.0, 4.0).direction());
+            let material = materials.at(dir, &terrain.sample(dir));
+            assert_eq!((material.textures, material.detail), (shown, detail));
+        }
     }
 }

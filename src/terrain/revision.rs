@@ -304,8 +304,9 @@ fn drawn_keys(planet: &Planet) -> [Key; 5] {
         }
     });
     let [materials, cloud_map, optical_depth, air_tables, life] = &read;
+    let sets: Vec<_> = planet.texture_sets().map(|(_, file)| file.set()).collect();
     [
-        Key::of(&(materials, &planet.biomes.table)),
+        Key::of(&(materials, &planet.biomes.table, sets)),
         Key::of(cloud_map),
         Key::of(optical_depth),
         Key::of(&(optical_depth, air_tables)),

@@ -15,6 +15,7 @@
 //! - `hostile`: broken and oversized files
 //! - `interface`: what docs/commands.md promises, against `--help`
 //! - `system`: systems of planets
+//! - `textures`: texture sets of biomes
 //! - `readme`: the README's examples, presets and pictures
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
@@ -40,11 +41,14 @@ mod readme;
 mod rivers;
 mod sets;
 mod system;
+mod textures;
 
 #[path = "../support/dice.rs"]
 mod dice;
 #[path = "../support/glb.rs"]
 mod glb;
+#[path = "../support/textures.rs"]
+mod textures_of;
 
 /// A planet without a structure: there are no maps to solve.
 const LAYERED: &str = "tests/fixtures/layered.ron";

@@ -13,7 +13,7 @@
 //! - `rivers`: water on the whole course of rivers
 //! - `physics`, `ground`, `walker`: contacts, sweeps, and those who walk
 //! - `system`: orbits and resonances; `trial`: what trials of systems find
-//! - `meshes`: meshes of artists that populations have
+//! - `meshes`: meshes of artists that populations have; `textures`: texture sets of biomes
 //! - `life`: what stands on the ground; `lie`: by water, ridges and hollows; `planting`: by hand; `solid`: what of it
 //!   is hit
 //! - `water`: rivers, lakes and weather of a structure
@@ -59,6 +59,7 @@ mod structural;
 mod structure;
 mod system;
 mod terrain;
+mod textures;
 mod trial;
 mod walker;
 mod water;
@@ -71,4 +72,5 @@ mod support {
     pub mod glb;
     pub mod layered;
     pub mod png;
+    pub mod textures;
 }

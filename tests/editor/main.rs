@@ -18,6 +18,7 @@
 //! - `clipboard`: layers and parts as text
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
 //! - `text`: the text of the preset
+//! - `textures`: texture sets of biomes
 //! - `variations`: variations of the planet, and locks
 //! - `monkey`: random commands, all of which can be undone; `memory`: random events, over which memory levels off
 //! - `photo`: photographs, films, and what a photographer sets
@@ -62,6 +63,9 @@ mod png;
 mod sculpt;
 mod system;
 mod text;
+mod textures;
+#[path = "../support/textures.rs"]
+mod textures_of;
 mod tour;
 mod variations;
 mod viewport;

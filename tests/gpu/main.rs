@@ -3,7 +3,7 @@
 //! - `shaders`: every WGSL file through naga
 //! - `air`, `sky`: the atmosphere, against goldens and against the CPU reference
 //! - `albedo`: what grounds, seas and clouds reflect, from orbit
-//! - `biomes`, `colours`, `materials`: the colours of the ground
+//! - `biomes`, `colours`, `materials`, `textures`: the colours of the ground
 //! - `casters`: things of a game: the shadows that they cast, and those that fall on them
 //! - `clouds`: clouds over time, drafts of their maps
 //! - `cloud_edges`: clouds near the horizon: stairs and stripes
@@ -54,6 +54,7 @@ mod shaders;
 mod shadows;
 mod shimmer;
 mod sky;
+mod textures;
 
 #[path = "../support/glb.rs"]
 mod glb;

@@ -9,10 +9,10 @@ use tellus::sphere::LatLon;
 use tellus::terrain::GroundMaterials;
 use tellus::tiles::Surface;
 
-const PLACE: (f64, f64) = (37.0, 20.0);
+pub(crate) const PLACE: (f64, f64) = (37.0, 20.0);
 
 /// A bare ball of one biome.
-fn ball(biome: Biome) -> Planet {
+pub(crate) fn ball(biome: Biome) -> Planet {
     let table = Table::uniform(biome.key, 2, 2);
     Planet {
         biomes: Biomes { palette: vec![biome], table, ..Biomes::default() },
@@ -23,7 +23,7 @@ fn ball(biome: Biome) -> Planet {
     }
 }
 
-fn grey(albedo: f64) -> Biome {
+pub(crate) fn grey(albedo: f64) -> Biome {
     Biome { color: [albedo; 3], variation: 0.0, specular: 0.0, ..Biome::default() }
 }
 
@@ -32,7 +32,7 @@ fn surface(planet: &Arc<Planet>, camera: &Camera) -> Surface {
 }
 
 /// The middle pixels of a picture straight down from `altitude_m`.
-fn middle(gpu: &mut Gpu, planet: &Planet, altitude_m: f64, sun_lon: f64) -> Vec<[u8; 3]> {
+pub(crate) fn middle(gpu: &mut Gpu, planet: &Planet, altitude_m: f64, sun_lon: f64) -> Vec<[u8; 3]> {
     let planet = Arc::new(planet.clone());
     let camera = camera(&planet, PLACE.0, PLACE.1, altitude_m, 0.0, -90.0);
     let surface = surface(&planet, &camera);
@@ -45,7 +45,7 @@ fn middle(gpu: &mut Gpu, planet: &Planet, altitude_m: f64, sun_lon: f64) -> Vec<
 }
 
 /// For each display code, the albedo of level grey ground that shows it from orbit.
-fn albedo_by_byte(gpu: &mut Gpu, sun_lon: f64) -> Vec<f64> {
+pub(crate) fn albedo_by_byte(gpu: &mut Gpu, sun_lon: f64) -> Vec<f64> {
     const STEPS: u32 = 14;
     let mut known: Vec<(f64, f64)> = vec![(0.0, 0.0)];
     for step in 1..=STEPS {

@@ -4,6 +4,7 @@
 pub mod dice;
 pub mod edits;
 pub mod layered;
+pub mod textures;
 
 use glam::DVec3;
 pub use layered::{LAYERED, layered};

@@ -31,7 +31,7 @@ pub fn ask(state: &mut State, ctx: &egui::Context, edits: Vec<usize>) {
 pub fn chosen(state: &mut State, ctx: &egui::Context, edits: Vec<usize>, file: &Path, agreed: Option<&Path>) {
     let path = with_extension(file, "exr");
     // One that the planet names, but which is not there yet, would be read from then on.
-    let is_named = state.document.planet().pictures().any(|(_, file, _)| file.location().as_ref() == Some(&path));
+    let is_named = state.document.planet().linked_places().any(|(_, key)| key.file() == path);
     if is_named && !path.exists() {
         state.report(FAILED, vec![format!("The planet names {} already. Choose another name.", path.display())]);
         return;

@@ -3,15 +3,15 @@
 use super::biome_palette::PaletteState;
 use super::biome_table::{PainterState, Shown, TableOutput};
 use super::{Draft, biome_edit, biome_palette, biome_table, owner_box, rest};
-use crate::editor::command::Command;
+use crate::editor::command::{Action, Command};
 use crate::editor::commands;
 use crate::editor::painter::tools::{Brush, Cell, Tool};
 use crate::editor::viewport::pointer::KnownPlace;
 use crate::editor::viewport::{Click, TabLink};
-use crate::editor::widgets::menu_button;
 use crate::editor::widgets::param_row::{BiomeName, Row, param_row};
-use crate::editor::widgets::params_grid::{Grid, params_grid};
+use crate::editor::widgets::params_grid::{Grid, params_grid, params_grid_with};
 use crate::editor::widgets::typed::{Allowed, typed_field};
+use crate::editor::widgets::{color32, menu_button};
 use crate::planet::param::{ParamPath, ParamValue, Segment, Unit, Value};
 use crate::planet::{Biome, Biomes, Planet, STARTING_TABLES, Table};
 use crate::render::MarkedCells;
@@ -266,7 +266,21 @@ fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
     }
     let grid = Grid { base, owner: &name, skip: &["key"], shown: draft.shown, biomes: &names };
     let mut default = Biome { name: name.clone(), ..Biome::default() };
-    params_grid(ui, &grid, biome, &mut default);
+    // What the set is was known before the grid; its path may change within.
+    let set = biome.textures.set().cloned();
+    let textures = grid.base.join("textures");
+    let mut takes_color = false;
+    let mut below = |ui: &mut egui::Ui, path: &ParamPath| {
+        if let Some(set) = set.as_ref().filter(|_| *path == textures) {
+            takes_color |= take_color(ui, set.color);
+        }
+    };
+    let browse = params_grid_with(ui, &grid, biome, &mut default, &mut below);
+    draft.commands.extend(browse.map(Action::Browse));
+    if let Some(set) = set.filter(|_| takes_color) {
+        biome.color = set.color.map(|part| (part * 1e4).round() / 1e4);
+        draft.label = Some("Take colour of textures".to_owned());
+    }
     if key != biome.key {
         let refused = biome_edit::rekey(draft.planet, index, key).err();
         if refused.is_none() {
@@ -274,6 +288,18 @@ fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
         }
         state.refused = refused.map(|why| (index, why));
     }
+}
+
+/// The mean colour of a texture set. Whether the biome should have it.
+fn take_color(ui: &mut egui::Ui, color: [f64; 3]) -> bool {
+    let shown = |ui: &mut egui::Ui| {
+        let tooltip = "Gives the biome the mean colour of the textures, which only vary the colour that it has";
+        let button = ui.button("Take its colour").on_hover_text(tooltip);
+        let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(ui.spacing().interact_size.y), egui::Sense::hover());
+        ui.painter().rect_filled(rect.shrink(3.0), 2.0, color32(color));
+        button.clicked()
+    };
+    ui.horizontal(|ui| ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), shown).inner).inner
 }
 
 fn sides(ui: &mut egui::Ui, draft: &mut Draft<'_>) {

@@ -61,7 +61,7 @@ const BIOMES: &[Section] = &[
 
 const BIOME: &[Section] = &[
     open("Colour", &["variation", "patches", "patch_color", "patch_m"]),
-    open("Surface", &["roughness", "specular", "detail", "patch_detail", "detail_m", "detail_strength"]),
+    open("Surface", &["roughness", "specular", "detail", "patch_detail", "textures", "detail_m", "detail_strength"]),
     folded("Steep ground", &["steep", "steep_key", "steep_from_deg", "steep_to_deg"]),
     folded("Relief", &["relief_m", "relief_size_m"]),
     folded("Glow and flow", &["glow", "glow_color", "flow_m_s"]),

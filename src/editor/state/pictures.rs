@@ -1,5 +1,6 @@
-//! Height maps and meshes, read on another thread, and read again when they change on disk. A layer whose picture is
-//! missing or cannot be read is flat; a population without its mesh stands with a plain form.
+//! Height maps, texture sets and meshes, read on another thread, and read again when they change on disk. A layer whose
+//! picture is missing or cannot be read is flat; a biome without its textures shows its built-in pattern; a population
+//! without its mesh stands with a plain form.
 
 use super::document::Document;
 use crate::editor::files::disk::{News, watch};
@@ -53,7 +54,7 @@ struct Failure {
 }
 
 impl Pictures {
-    /// Problems of the document's pictures and meshes. They do not prevent saving.
+    /// Problems of the document's pictures, texture sets and meshes. They do not prevent saving.
     pub fn problems(&self) -> &[(ParamPath, String)] {
         &self.problems
     }
@@ -125,10 +126,7 @@ impl Pictures {
         let is_same = |failure: &Failure| stamps_of(&failure.key, None)[0] == failure.stamps[0];
         self.failed.retain(|failure| is_wanted(&failure.key) && is_same(failure));
         let stale = self.known.iter().filter(|known| known.is_stale).flat_map(|known| {
-            let pictures =
-                planet.pictures().filter_map(|(path, file, extent)| Some((path, FileKey::Picture(file.key(extent)?))));
-            let meshes = planet.meshes().filter_map(|(path, file)| Some((path, FileKey::Mesh(file.location()?))));
-            let named = pictures.chain(meshes).filter(|(_, key)| *key == known.key);
+            let named = planet.linked_places().filter(|(_, key)| *key == known.key);
             named.map(|(path, key)| (path, Ok(key))).collect::<Vec<_>>()
         });
         for (path, key) in missing.into_iter().chain(stale.collect::<Vec<_>>()) {

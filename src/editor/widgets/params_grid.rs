@@ -33,8 +33,19 @@ pub fn params_grid(
     part: &mut dyn Params,
     default: &mut dyn Params,
 ) -> Option<ParamPath> {
+    params_grid_with(ui, grid, part, default, &mut |_, _| {})
+}
+
+/// As [`params_grid`]; `below` adds widgets below the row of the parameter at a path.
+pub fn params_grid_with(
+    ui: &mut egui::Ui,
+    grid: &Grid<'_>,
+    part: &mut dyn Params,
+    default: &mut dyn Params,
+    below: &mut dyn FnMut(&mut egui::Ui, &ParamPath),
+) -> Option<ParamPath> {
     let (now, defaults) = (values(part, &grid.base), values(default, &grid.base));
-    let mut rows = Rows { grid, now, defaults, browse: None };
+    let mut rows = Rows { grid, now, defaults, browse: None, below };
     let sections = if grid.shown.filter.is_active() { &[] } else { sections_of(&grid.base) };
     rows.show(ui, part, |field| !sections.iter().any(|section| section.fields.contains(&field)));
     for section in sections {
@@ -52,6 +63,7 @@ struct Rows<'a> {
     now: Vec<Known>,
     defaults: Vec<Known>,
     browse: Option<ParamPath>,
+    below: &'a mut dyn FnMut(&mut egui::Ui, &ParamPath),
 }
 
 impl Rows<'_> {
@@ -119,6 +131,7 @@ impl Rows<'_> {
             if grid.shown.marked(ui, path, param.name, |ui| param_row(ui, &row, value)) {
                 self.browse = Some(path.clone());
             }
+            (self.below)(ui, path);
         });
     }
 }

@@ -57,7 +57,7 @@ fn sticks(form: &Wood, seed: u32) -> Vec<Stick> {
         let length = form.length as f32 * if i == 0 { 1.0 } else { random.range(0.45, 1.0) };
         let radius = thick * share;
         let along = around(spin + i as f32 * GOLDEN * 1.3 + random.signed() * 0.4);
-        let aside = if i == 0 { 0.0 } else { random.range(0.12, 0.45) * form.length as f32 };
+        let aside = if i == 0 { 0.0 } else { random.range(0.1, 0.3) * form.length as f32 };
         let middle = around(random.range(0.0, TURN)) * aside;
         trunks.push(Stick {
             butt: middle - along * (0.5 * length),
@@ -123,7 +123,7 @@ struct Plan {
 /// Plan within the triangles of a level: pieces get coarser before branches, and then trunks, are left out.
 fn plan(detail: &Detail, trunks: usize, branches: usize) -> Plan {
     let most = detail.pick([3900, 690, 138, 28]);
-    let (trunk, branch) = detail.pick([((14, 12), (5, 6)), ((7, 7), (3, 4)), ((4, 5), COARSEST), ((2, 4), COARSEST)]);
+    let (trunk, branch) = detail.pick([((14, 12), (5, 6)), ((7, 7), (3, 4)), ((4, 5), COARSEST), ((2, 6), COARSEST)]);
     let branches = if detail.level == 3 { 0 } else { branches };
     let mut plan = Plan { trunks, branches, trunk, branch };
     while plan.trunks * triangles(plan.trunk) + plan.branches * triangles(plan.branch) > most {

@@ -17,3 +17,4 @@ mod texture;
 pub use data::{MAX_TRIANGLES, MeshCorner, MeshData, MeshFile, MeshNode};
 pub use read::MAX_FILE_BYTES;
 pub(super) use read::{decoded, load};
+pub(super) use texture::linear as linear_from_srgb;

@@ -68,7 +68,7 @@ impl Texture {
 }
 
 /// Linear part of an sRGB one.
-fn linear(part: f32) -> f32 {
+pub(in crate::planet) fn linear(part: f32) -> f32 {
     if part <= 0.040_45 { part / 12.92 } else { libm::powf((part + 0.055) / 1.055, 2.4) }
 }
 

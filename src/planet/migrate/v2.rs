@@ -115,7 +115,7 @@ frozen! {
         glow_color: [f64; 3] = [1.0, 0.25, 0.03],
         flow_m_s: f64 = 0.0,
     }
-    adding { patch_detail: planet::Detail::None }
+    adding { patch_detail: planet::Detail::None, textures: Default::default() }
 }
 
 frozen_choice! { Detail => planet::Detail { None, Grass, Litter, Sand, Gravel, Rock, Snow, Ice, Mud, Lava } }

@@ -1,10 +1,10 @@
-//! Memory and work limits of the pictures and meshes of one planet, so that no preset exhausts either, whatever its
-//! files say.
+//! Memory and work limits of the pictures, texture sets and meshes of one planet, so that no preset exhausts either,
+//! whatever its files say.
 //!
 //! - One picture has at most [`MAX_PIXELS`].
 //! - All pictures of a planet keep at most [`MAX_BYTES`] of pixels: two bytes for a pixel of a PNG, four for one of an
-//!   OpenEXR. Coarser levels add a third. Reading a picture and making its levels takes about as much again for a
-//!   moment: no planet's pictures ever take more than 1.5 GiB.
+//!   OpenEXR, and for a texture set those of its layer. Coarser levels add a third. Reading a picture and making its
+//!   levels takes about as much again for a moment: no planet's pictures ever take more than 1.5 GiB.
 //! - The files of a planet hold at most [`MAX_WORK_BYTES`] of unpacked numbers in all channels, used or not: this
 //!   bounds the time.
 //! - All meshes of a planet have at most [`MAX_MESH_TRIANGLES`].
@@ -43,9 +43,14 @@ impl Default for Budget {
 impl Budget {
     /// Counts a loaded picture; an error if there is no room for it.
     pub(in crate::planet) fn keep(&mut self, picture: &Picture) -> Result<(), String> {
-        if !self.counted.contains(&picture.hash) {
-            self.take(picture.bytes, 0)?;
-            self.counted.push(picture.hash);
+        self.keep_layer(picture.hash, picture.bytes)
+    }
+
+    /// Counts loaded pixels, such as those of a texture set; an error if there is no room for them.
+    pub(in crate::planet) fn keep_layer(&mut self, hash: u64, bytes: u64) -> Result<(), String> {
+        if !self.counted.contains(&hash) {
+            self.take(bytes, 0)?;
+            self.counted.push(hash);
         }
         Ok(())
     }
@@ -66,7 +71,7 @@ impl Budget {
     }
 
     /// Takes room for a picture before it is decoded: the bytes of its pixels, and the unpacked bytes of its file.
-    pub(super) fn take(&mut self, bytes: u64, work_bytes: u64) -> Result<(), String> {
+    pub(in crate::planet) fn take(&mut self, bytes: u64, work_bytes: u64) -> Result<(), String> {
         if bytes > self.bytes {
             return Err(format!(
                 "takes {} of memory, and {} of {} are left for it beside the planet's other pictures; use smaller \

@@ -1,4 +1,4 @@
-//! OpenEXR files, block by block. Only the channel with the heights is kept.
+//! OpenEXR files, block by block. Only the wanted channels are kept: that with the heights, or those of colours.
 //!
 //! The header is checked before any block is read, because block sizes bound what a decoder allocates. Blocks are
 //! decoded in groups on all cores; panics are contained ([`super::contain`]).
@@ -30,32 +30,73 @@ const LEAST_BLOCK_WORK: u64 = 32 << 10;
 /// Most blocks of a picture.
 const MAX_BLOCKS: u64 = MAX_WORK_BYTES / LEAST_BLOCK_WORK;
 
+/// The channels that are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::planet) enum Wanted {
+    /// The one that says how bright a pixel is.
+    Grey,
+    /// Red, green and blue; of a picture without them, the brightness thrice.
+    Colors,
+}
+
 /// Reads a picture; takes what it needs from the budget.
-pub(super) fn read(
-    mut file: impl BufRead + Seek,
-    extent: PictureExtent,
+pub(super) fn read(file: impl BufRead + Seek, extent: PictureExtent, budget: &mut Budget) -> Result<Picture, String> {
+    let (file, about) = opened(file)?;
+    let source = Source::find(&about, Wanted::Grey, |sides| Size::checked(sides, extent))?;
+    let bytes = source.size.pixels() * size_of::<f32>() as u64;
+    budget.take(bytes, source.work_bytes)?;
+    let canvas = Canvas::new(source.size, extent).and_then(|mut canvas| {
+        let mut put = |row: usize, column: usize, channels: &[&[f32]]| canvas.put(row, column, channels[0]);
+        contained(|| blocks(file, &source, &mut put)).map(|()| canvas)
+    });
+    let (raster, hash) = canvas.inspect_err(|_| budget.give_back(bytes))?.finish(|texel| u64::from(texel.to_bits()));
+    Ok(Picture { texels: Texels::Float(raster), hash, bytes })
+}
+
+/// Reads numbers from left to right, in an order of the file's own. `checked` looks at width and height and makes what
+/// gets the numbers: row, first column, and as many numbers of each wanted channel.
+pub(in crate::planet) fn each_run<S>(
+    file: impl BufRead + Seek,
+    wanted: Wanted,
     budget: &mut Budget,
-) -> Result<Picture, String> {
+    checked: impl FnOnce([usize; 2]) -> Result<S, String>,
+    mut put: impl FnMut(&mut S, usize, usize, &[&[f32]]),
+) -> Result<S, String> {
+    let (file, about) = opened(file)?;
+    let mut sink = None;
+    let source = Source::find(&about, wanted, |[width, height]| {
+        sink = Some(checked([width, height])?);
+        Ok(Size { width, height })
+    })?;
+    budget.take(0, source.work_bytes)?;
+    let mut sink = sink.ok_or("has no pixels")?;
+    contained(|| blocks(file, &source, &mut |row, column, channels| put(&mut sink, row, column, channels)))?;
+    Ok(sink)
+}
+
+/// The headers of a file, which is at its start again.
+fn opened<F: BufRead + Seek>(mut file: F) -> Result<(F, MetaData), String> {
     let about = contained(|| {
         MetaData::read_from_buffered(file.by_ref().take(MAX_HEADER_BYTES), false).map_err(|error| broken(&error))
     })?;
     file.rewind().map_err(|error| format!("cannot be read: {error}"))?;
-    let source = Source::find(&about, extent)?;
-    let bytes = source.size.pixels() * size_of::<f32>() as u64;
-    budget.take(bytes, source.work_bytes)?;
-    let canvas = contained(|| blocks(file, &source, extent)).inspect_err(|_| budget.give_back(bytes))?;
-    let (raster, hash) = canvas.finish(|texel| u64::from(texel.to_bits()));
-    Ok(Picture { texels: Texels::Float(raster), hash, bytes })
+    Ok((file, about))
 }
 
-/// The location of the heights in the file.
+/// A channel that is kept.
+struct Channel {
+    sample: SampleType,
+    /// Bytes of a pixel in the channels before it.
+    bytes_before: usize,
+}
+
+/// The location of the wanted numbers in the file.
 struct Source {
     layer: usize,
     size: Size,
-    sample: SampleType,
-    /// Bytes of a pixel in all channels, and in the channels before that of the heights.
+    channels: Vec<Channel>,
+    /// Bytes of a pixel in all channels.
     pixel_bytes: usize,
-    bytes_before: usize,
     /// Width and height of a block.
     block: [usize; 2],
     work_bytes: u64,
@@ -63,11 +104,15 @@ struct Source {
 
 impl Source {
     /// Checks everything that a decoder relies on.
-    fn find(about: &MetaData, extent: PictureExtent) -> Result<Self, String> {
+    fn find(
+        about: &MetaData,
+        wanted: Wanted,
+        checked: impl FnOnce([usize; 2]) -> Result<Size, String>,
+    ) -> Result<Self, String> {
         let usable = |header: &Header| !header.deep && !header.channels.list.is_empty();
         let layer = about.headers.iter().position(usable).ok_or("has no channel of plain pixels")?;
         let header = &about.headers[layer];
-        let size = Size::checked([header.layer_size.width(), header.layer_size.height()], extent)?;
+        let size = checked([header.layer_size.width(), header.layer_size.height()])?;
         for header in &about.headers {
             check_blocks(header)?;
         }
@@ -90,13 +135,19 @@ impl Source {
         // Channels are in alphabetical order: the first of RGBA would be A.
         let channels = &header.channels.list;
         let named = |name: &str| channels.iter().position(|channel| channel.name.eq_case_insensitive(name));
-        let channel = ["Y", "L", "R"].into_iter().find_map(named).unwrap_or(0);
-        let bytes_before = channels[..channel].iter().map(|channel| channel.sample_type.bytes_per_sample()).sum();
-        let sample = channels[channel].sample_type;
-        Ok(Self { layer, size, sample, pixel_bytes, bytes_before, block, work_bytes })
+        let grey = || vec![["Y", "L", "R"].into_iter().find_map(named).unwrap_or(0)];
+        let kept = match wanted {
+            Wanted::Grey => grey(),
+            Wanted::Colors => ["R", "G", "B"].map(named).into_iter().collect::<Option<_>>().unwrap_or_else(grey),
+        };
+        let bytes_before =
+            |kept: usize| channels[..kept].iter().map(|other| other.sample_type.bytes_per_sample()).sum();
+        let kept =
+            kept.into_iter().map(|at| Channel { sample: channels[at].sample_type, bytes_before: bytes_before(at) });
+        Ok(Self { layer, size, channels: kept.collect(), pixel_bytes, block, work_bytes })
     }
 
-    /// Whether a block contains heights in full resolution.
+    /// Whether a block contains wanted numbers in full resolution.
     fn wants(&self, chunk: &Chunk) -> bool {
         let finest = match &chunk.compressed_block {
             CompressedBlock::Tile(tile) => tile.coordinates.is_largest_resolution_level(),
@@ -105,13 +156,13 @@ impl Source {
         chunk.layer_index == self.layer && finest
     }
 
-    /// The numbers of a block, row by row.
-    fn numbers(&self, block: &UncompressedBlock) -> Result<Vec<f32>, String> {
+    /// The numbers of a channel in a block, row by row.
+    fn numbers(&self, block: &UncompressedBlock, channel: &Channel) -> Result<Vec<f32>, String> {
         let width = block.index.pixel_size.width();
         let row_bytes = width * self.pixel_bytes;
-        let bytes = self.sample.bytes_per_sample();
-        let of_channel = self.bytes_before * width..(self.bytes_before + bytes) * width;
-        let number = |bytes: &[u8]| match (self.sample, bytes) {
+        let bytes = channel.sample.bytes_per_sample();
+        let of_channel = channel.bytes_before * width..(channel.bytes_before + bytes) * width;
+        let number = |bytes: &[u8]| match (channel.sample, bytes) {
             (SampleType::F16, &[a, b]) => half::f16::from_ne_bytes([a, b]).to_f32(),
             (SampleType::F32, &[a, b, c, d]) => f32::from_ne_bytes([a, b, c, d]),
             (SampleType::U32, &[a, b, c, d]) => u32::from_ne_bytes([a, b, c, d]) as f32,
@@ -156,7 +207,12 @@ fn check_blocks(header: &Header) -> Result<(), String> {
     }
 }
 
-fn blocks(file: impl BufRead + Seek, source: &Source, extent: PictureExtent) -> Result<Canvas<f32>, String> {
+/// Gives all blocks to `put`, line by line: row, first column, numbers of each channel.
+fn blocks(
+    file: impl BufRead + Seek,
+    source: &Source,
+    put: &mut impl FnMut(usize, usize, &[&[f32]]),
+) -> Result<(), String> {
     let reader = Reader::read_from_buffered(file, false).map_err(|error| broken(&error))?;
     let about = reader.meta_data().clone();
     let mut chunks = reader.all_chunks(false).map_err(|error| broken(&error))?;
@@ -165,7 +221,6 @@ fn blocks(file: impl BufRead + Seek, source: &Source, extent: PictureExtent) -> 
     let mut seen = vec![false; columns * source.size.height.div_ceil(block_height)];
     let at_once = (MAX_GROUP_BYTES / (block_width * block_height * source.pixel_bytes))
         .clamp(1, 4 * rayon::current_num_threads().max(1));
-    let mut canvas = Canvas::new(source.size, extent)?;
     let mut missing = seen.len();
     while missing > 0 {
         let wanted = chunks.by_ref().filter(|chunk| chunk.as_ref().map_or(true, |chunk| source.wants(chunk)));
@@ -173,7 +228,7 @@ fn blocks(file: impl BufRead + Seek, source: &Source, extent: PictureExtent) -> 
         if group.is_empty() {
             return Err("is broken: blocks are missing; save the picture anew".to_owned());
         }
-        let decoded: Vec<(BlockIndex, Vec<f32>)> =
+        let decoded: Vec<(BlockIndex, Vec<Vec<f32>>)> =
             group.into_par_iter().map(|chunk| contained(|| decode(chunk, &about, source))).collect::<Result<_, _>>()?;
         for (index, numbers) in decoded {
             let (column, row) = (index.pixel_position.x(), index.pixel_position.y());
@@ -183,18 +238,22 @@ fn blocks(file: impl BufRead + Seek, source: &Source, extent: PictureExtent) -> 
                 _ => return Err("is broken: a block is there twice; save the picture anew".to_owned()),
             }
             missing -= 1;
-            for (line, numbers) in numbers.chunks_exact(index.pixel_size.width()).enumerate() {
-                canvas.put(row + line, column, numbers);
+            let width = index.pixel_size.width();
+            for line in 0..index.pixel_size.height() {
+                let of_line: Vec<&[f32]> =
+                    numbers.iter().map(|numbers| &numbers[line * width..(line + 1) * width]).collect();
+                put(row + line, column, &of_line);
             }
         }
     }
-    Ok(canvas)
+    Ok(())
 }
 
-fn decode(chunk: Chunk, about: &MetaData, source: &Source) -> Result<(BlockIndex, Vec<f32>), String> {
+fn decode(chunk: Chunk, about: &MetaData, source: &Source) -> Result<(BlockIndex, Vec<Vec<f32>>), String> {
     check_dwa(&chunk, &about.headers[source.layer])?;
     let block = UncompressedBlock::decompress_chunk(chunk, about, false).map_err(|error| broken(&error))?;
-    Ok((block.index, source.numbers(&block)?))
+    let numbers = source.channels.iter().map(|channel| source.numbers(&block, channel)).collect::<Result<_, _>>()?;
+    Ok((block.index, numbers))
 }
 
 /// Blocks compressed with DWA begin with the sizes of their sections, and the decoder allocates them.

@@ -22,6 +22,8 @@ mod read;
 
 pub use budget::{Budget, MAX_BYTES, MAX_MESH_TRIANGLES, MAX_PIXELS, MAX_WORK_BYTES};
 pub use contain::is_contained;
+pub(super) use from_exr::{Wanted, each_run as exr_runs};
+pub(super) use from_png::each_run as png_runs;
 pub use pixels::{Picture, PictureExtent, PictureLayout};
 
 use super::linked::{Linked, LinkedFile};

@@ -1,83 +1,131 @@
-//! The patterns on the GPU: two texture arrays with a layer for each kind that is shown, and all mip levels.
+//! The patterns on the GPU: two texture arrays with a layer for each pattern that is shown, and all mip levels: tints
+//! and surfaces, as [`Layer`] has them.
 //!
-//! - `tint`: half the factor on the biome's albedo (rgb) and the rank of the height among all heights, 0..1 (a). The
-//!   mean factor is 1, so that a biome keeps its colour far away, where only the coarsest level shows. The ranks make a
-//!   threshold leave a known share.
-//! - `surface`: slopes along both sides (rg), change of roughness (b), glow (a)
-//!
-//! A pattern is drawn once in the process, when a planet first shows it.
+//! A built-in pattern is drawn once in the process, when a planet first shows it. A texture set comes with its planet.
 
 use super::canvas::Spot;
 use super::draw;
 use super::noise::SIDE;
 use crate::planet::Detail;
+use crate::planet::textures::TextureSet;
+use crate::planet::textures::layer::{Layer, Texel, Texels, slopes_of};
 use crate::render::gpu;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError, Weak};
 
-/// Largest slope that is stored, rise over run.
-pub(crate) const PATTERN_STEEPEST: f32 = 1.25;
-/// Largest change of roughness that is stored.
-pub(crate) const PATTERN_ROUGHNESS: f32 = 0.5;
-
-type Texels = Vec<[u8; 4]>;
-
-/// All mip levels of one layer, finest first.
-struct Layer {
-    tint: Vec<Texels>,
-    surface: Vec<Texels>,
-    /// Range of heights in periods: that of ranks on the line which fits the heights best.
-    relief: f32,
+/// A pattern that a biome shows. Sets are equal if their content is.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Pattern {
+    /// A built-in one.
+    Kind(Detail),
+    /// The textures of an artist.
+    Set(Arc<TextureSet>),
 }
 
-/// Both texture arrays, with a layer for each kind of pattern that a planet of the device has shown.
+impl Pattern {
+    /// Range of heights in periods.
+    pub(crate) fn relief(&self) -> f64 {
+        self.layer().relief.into()
+    }
+
+    fn layer(&self) -> &Layer {
+        match self {
+            Pattern::Kind(kind) => layer(*kind),
+            Pattern::Set(set) => set.layer(),
+        }
+    }
+}
+
+/// Both texture arrays, with a layer for each of some patterns.
 #[derive(Clone, PartialEq)]
 pub(crate) struct PatternArrays {
-    kinds: Arc<[Detail]>,
+    patterns: Arc<[Pattern]>,
     pub(crate) tint: wgpu::TextureView,
     pub(crate) surface: wgpu::TextureView,
 }
 
 impl PatternArrays {
-    /// Without any kind, one empty texel.
-    fn new(device: &wgpu::Device, queue: &wgpu::Queue, kinds: Arc<[Detail]>) -> Self {
-        let layers: Vec<&Layer> = kinds.par_iter().map(|kind| layer(*kind)).collect();
+    /// Without any pattern, one empty texel.
+    fn new(device: &wgpu::Device, queue: &wgpu::Queue, patterns: Arc<[Pattern]>) -> Self {
+        let layers: Vec<&Layer> = patterns.par_iter().map(Pattern::layer).collect();
         let tint = upload(device, queue, "tints of the ground", layers.iter().map(|layer| &layer.tint));
         let surface = upload(device, queue, "surfaces of the ground", layers.iter().map(|layer| &layer.surface));
-        Self { kinds, tint, surface }
+        Self { patterns, tint, surface }
     }
 
-    /// The kinds, in the order of their layers.
-    pub(crate) fn kinds(&self) -> &[Detail] {
-        &self.kinds
+    /// The patterns, in the order of their layers.
+    pub(crate) fn patterns(&self) -> &[Pattern] {
+        &self.patterns
     }
 }
 
-/// The newest arrays of a device. Kinds are only added, so a layer keeps its index.
-pub(crate) struct PatternPool(Mutex<PatternArrays>);
+/// The newest arrays of a device, and what bodies show of them.
+pub(crate) struct PatternPool(Mutex<Pool>);
+
+struct Pool {
+    arrays: PatternArrays,
+    /// The patterns of each body, as long as it holds them.
+    shown: Vec<Weak<[Pattern]>>,
+}
 
 impl PatternPool {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        Self(Mutex::new(PatternArrays::new(device, queue, [].into())))
+        Self(Mutex::new(Pool { arrays: PatternArrays::new(device, queue, [].into()), shown: Vec::new() }))
     }
 
-    /// Arrays that have these kinds. New kinds make new arrays.
-    pub(crate) fn with(&self, device: &wgpu::Device, queue: &wgpu::Queue, kinds: &[Detail]) -> PatternArrays {
-        let mut arrays = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if kinds.iter().any(|kind| !arrays.kinds.contains(kind)) {
-            let added = kinds.iter().filter(|kind| !arrays.kinds.contains(kind));
-            let all = arrays.kinds.iter().chain(added).copied().collect();
-            *arrays = PatternArrays::new(device, queue, all);
+    /// Arrays that have the patterns of a body. It holds `shown` as long as it shows them. New patterns make new
+    /// arrays, without the sets that no body shows any more; so layers change their indices.
+    pub(crate) fn with(&self, device: &wgpu::Device, queue: &wgpu::Queue, shown: &Arc<[Pattern]>) -> PatternArrays {
+        let mut pool = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let most = device.limits().max_texture_array_layers as usize;
+        if let Some(patterns) = pool.grown(shown, most) {
+            pool.arrays = PatternArrays::new(device, queue, patterns.into());
         }
-        arrays.clone()
+        pool.arrays.clone()
     }
 
     /// Memory of the newest arrays.
     pub(crate) fn resident_bytes(&self) -> u64 {
-        let arrays = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        gpu::view_bytes([&arrays.tint, &arrays.surface])
+        let pool = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        gpu::view_bytes([&pool.arrays.tint, &pool.arrays.surface])
     }
+}
+
+impl Pool {
+    /// Notes what a body shows. Gives the patterns of new arrays if it needs them.
+    fn grown(&mut self, shown: &Arc<[Pattern]>, most: usize) -> Option<Vec<Pattern>> {
+        let weak = Arc::downgrade(shown);
+        if !self.shown.iter().any(|other| Weak::ptr_eq(other, &weak)) {
+            self.shown.retain(|other| other.strong_count() > 0);
+            self.shown.push(weak);
+        }
+        grown(&self.arrays.patterns, &self.shown, shown, most)
+    }
+}
+
+/// The patterns of new arrays, if those at hand lack one of `wanted`: built-in ones stay, sets as long as a body shows
+/// them. At most `most`: sets beyond have no layer.
+fn grown(now: &[Pattern], shown: &[Weak<[Pattern]>], wanted: &[Pattern], most: usize) -> Option<Vec<Pattern>> {
+    let lacks = |all: &[Pattern]| wanted.iter().any(|pattern| !all.contains(pattern));
+    if !lacks(now) {
+        return None;
+    }
+    let shown: Vec<Arc<[Pattern]>> = shown.iter().filter_map(Weak::upgrade).collect();
+    let is_shown = |pattern: &Pattern| shown.iter().any(|patterns| patterns.contains(pattern));
+    let stays = |pattern: &&Pattern| matches!(pattern, Pattern::Kind(_)) || is_shown(pattern);
+    let mut all: Vec<Pattern> = Vec::new();
+    // Built-in ones first: they are the last resort of a biome.
+    for is_kind in [true, false] {
+        let of_sort = |pattern: &&Pattern| matches!(pattern, Pattern::Kind(_)) == is_kind;
+        for pattern in now.iter().filter(stays).chain(wanted).filter(of_sort) {
+            if !all.contains(pattern) && all.len() < most {
+                all.push(pattern.clone());
+            }
+        }
+    }
+    // Nothing is made anew where there is no room.
+    (all != now).then_some(all)
 }
 
 /// Draws kinds on other threads, each once, so that the first frame that shows them does not wait as long.
@@ -98,12 +146,7 @@ pub(super) fn draw_ahead(kinds: &[Detail]) {
 /// here could take a task that asks for the same layer, and would wait for itself.
 fn layer(kind: Detail) -> &'static Layer {
     static LAYERS: [OnceLock<Layer>; Detail::ALL.len()] = [const { OnceLock::new() }; Detail::ALL.len()];
-    LAYERS[kind as usize].get_or_init(|| Layer::new(&draw(kind)))
-}
-
-/// Range of heights of a kind in periods; 0 without a pattern. Draws the kind if no planet has shown it.
-pub(crate) fn relief_of(kind: Detail) -> f32 {
-    if kind == Detail::None { 0.0 } else { layer(kind).relief }
+    LAYERS[kind as usize].get_or_init(|| drawn(&draw(kind)))
 }
 
 fn upload<'a>(
@@ -143,27 +186,18 @@ fn upload<'a>(
     })
 }
 
-impl Layer {
-    fn new(spots: &[Spot]) -> Self {
-        let mut tints: Vec<[f32; 3]> = spots.iter().map(|spot| spot.tint).collect();
-        let heights: Vec<f32> = spots.iter().map(|spot| spot.height).collect();
-        occlude(&mut tints, &heights);
-        even_out(&mut tints);
-        neutralize(&mut tints);
-        let (ranks, slopes) = (ranks(&heights), slopes(&heights));
-        let relief = relief(&heights, &ranks);
-        let tint = tints.iter().zip(ranks).map(|(t, rank)| [0.5 * t[0], 0.5 * t[1], 0.5 * t[2], rank]).collect();
-        let surface = spots.iter().zip(slopes).map(|(spot, [x, y])| {
-            let signed = |w: f32, most: f32| 0.5 + 0.5 * (w / most).clamp(-1.0, 1.0);
-            [
-                signed(x, PATTERN_STEEPEST),
-                signed(y, PATTERN_STEEPEST),
-                signed(spot.roughness, PATTERN_ROUGHNESS),
-                spot.glow,
-            ]
-        });
-        Self { tint: levels(tint), surface: levels(surface.collect()), relief }
-    }
+/// The layer of a built-in pattern.
+fn drawn(spots: &[Spot]) -> Layer {
+    let mut tints: Vec<[f32; 3]> = spots.iter().map(|spot| spot.tint).collect();
+    let heights: Vec<f32> = spots.iter().map(|spot| spot.height).collect();
+    occlude(&mut tints, &heights);
+    let texel = |(spot, tint): (&Spot, [f32; 3])| Texel {
+        tint,
+        height: spot.height,
+        roughness: spot.roughness,
+        glow: spot.glow,
+    };
+    Layer::of_pattern(spots.iter().zip(tints).map(texel).collect(), slopes_of(&heights))
 }
 
 /// Darkens hollows and brightens what stands out, at two scales: the share of the sky that the heights around hide.
@@ -198,127 +232,36 @@ fn mean_around(values: &[f32], radius: usize, strides: [usize; 2]) -> Vec<f32> {
     means
 }
 
-/// Removes most of the coarse variation of brightness, because it makes the repetition of a pattern visible from afar.
-fn even_out(tints: &mut [[f32; 3]]) {
-    const CELLS: usize = 8;
-    const TAKEN: f32 = 0.75;
-    let width = SIDE / CELLS;
-    let mut means = [0.0_f32; CELLS * CELLS];
-    let light = |tint: &[f32; 3]| (tint[0] + tint[1] + tint[2]) / 3.0;
-    for (i, tint) in tints.iter().enumerate() {
-        means[i / SIDE / width * CELLS + i % SIDE / width] += light(tint) / (width * width) as f32;
-    }
-    let all = means.iter().sum::<f32>() / means.len() as f32;
-    // Indices and weight for interpolation between the middles of four cells.
-    let between: [_; SIDE] = std::array::from_fn(|w| {
-        let at = (w as f32 + 0.5) / width as f32 - 0.5 + CELLS as f32;
-        (at as usize % CELLS, (at as usize + 1) % CELLS, at.fract())
-    });
-    for (tints, (y, y_next, v)) in tints.chunks_mut(SIDE).zip(between) {
-        let row: [_; CELLS] = std::array::from_fn(|x| means[y * CELLS + x] * (1.0 - v) + means[y_next * CELLS + x] * v);
-        for (tint, (x, x_next, u)) in tints.iter_mut().zip(between) {
-            let here = row[x] * (1.0 - u) + row[x_next] * u;
-            let scale = 1.0 + TAKEN * (all / here.max(1e-3) - 1.0);
-            *tint = tint.map(|c| c * scale);
-        }
-    }
-}
-
-/// Scales each channel to a mean of 1, with no value above 2, the largest that is stored.
-fn neutralize(tints: &mut [[f32; 3]]) {
-    for _ in 0..4 {
-        let mut sums = [0.0_f64; 3];
-        for tint in tints.iter() {
-            sums.iter_mut().zip(tint).for_each(|(sum, c)| *sum += f64::from(c.clamp(0.0, 2.0)));
-        }
-        let scales = sums.map(|sum| (tints.len() as f64 / sum.max(1e-9)) as f32);
-        for tint in tints.iter_mut() {
-            tint.iter_mut().zip(scales).for_each(|(c, scale)| *c = (*c * scale).clamp(0.0, 2.0));
-        }
-    }
-}
-
-/// Rank of each value among all values, 0..1.
-fn ranks(values: &[f32]) -> Vec<f32> {
-    const BINS: usize = 1 << 14;
-    let (lo, hi) = values.iter().fold((f32::MAX, f32::MIN), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
-    let bin = |v: &f32| (((v - lo) / (hi - lo).max(1e-9) * BINS as f32) as usize).min(BINS - 1);
-    let bins: Vec<usize> = values.iter().map(bin).collect();
-    let mut below = vec![0_u32; BINS + 1];
-    bins.iter().for_each(|bin| below[bin + 1] += 1);
-    (0..BINS).for_each(|i| below[i + 1] += below[i]);
-    let middle = |i: usize| 0.5 * (below[i] + below[i + 1]) as f32 / values.len() as f32;
-    bins.into_iter().map(middle).collect()
-}
-
-/// Slope of the line through heights over ranks that fits best.
-fn relief(heights: &[f32], ranks: &[f32]) -> f32 {
-    let sums = heights.iter().zip(ranks).map(|(height, rank)| {
-        let off = f64::from(*rank) - 0.5;
-        (f64::from(*height) * off, off * off)
-    });
-    let (product, square) = sums.fold((0.0, 0.0), |(product, square), (p, s)| (product + p, square + s));
-    (product / square.max(1e-9)) as f32
-}
-
-/// Slopes (rise over run) along both sides, clamped to the stored range, with mean 0: a pattern must not tilt the
-/// ground.
-fn slopes(heights: &[f32]) -> Vec<[f32; 2]> {
-    let row = |y: usize| &heights[y % SIDE * SIDE..][..SIDE];
-    let per_run = 0.5 * SIDE as f32;
-    let limited = |slope: f32| slope.clamp(-PATTERN_STEEPEST, PATTERN_STEEPEST);
-    let mut slopes = Vec::with_capacity(heights.len());
-    for y in 0..SIDE {
-        let (below, here, above) = (row(y + SIDE - 1), row(y), row(y + 1));
-        slopes.extend((0..SIDE).map(|x| {
-            let along = here[(x + 1) % SIDE] - here[(x + SIDE - 1) % SIDE];
-            [along * per_run, (above[x] - below[x]) * per_run]
-        }));
-    }
-    // Clamping shifts the mean, and correcting the mean leads to more clamping. The change gets small after three
-    // rounds.
-    for _ in 0..3 {
-        let mut sums = [0.0_f64; 2];
-        for slope in &slopes {
-            sums.iter_mut().zip(slope).for_each(|(sum, slope)| *sum += f64::from(limited(*slope)));
-        }
-        let means = sums.map(|sum| (sum / slopes.len() as f64) as f32);
-        for slope in &mut slopes {
-            slope.iter_mut().zip(means).for_each(|(slope, mean)| *slope = limited(*slope) - mean);
-        }
-    }
-    slopes
-}
-
-/// Mip levels: means of blocks of two by two, rounded only when stored.
-fn levels(mut texels: Vec<[f32; 4]>) -> Vec<Texels> {
-    let byte = |share: f32| (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-    let mut levels = Vec::new();
-    let mut side = SIDE;
-    loop {
-        levels.push(texels.iter().map(|texel| texel.map(byte)).collect());
-        if side == 1 {
-            return levels;
-        }
-        let half = side / 2;
-        let mut means = Vec::with_capacity(half * half);
-        for rows in texels.chunks_exact(2 * side) {
-            let (below, above) = rows.split_at(side);
-            let pairs = below.chunks_exact(2).zip(above.chunks_exact(2));
-            means.extend(
-                pairs.map(|(b, a)| -> [f32; 4] {
-                    std::array::from_fn(|c| 0.25 * (b[0][c] + b[1][c] + a[0][c] + a[1][c]))
-                }),
-            );
-        }
-        texels = means;
-        side = half;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The sets of a body stay on the GPU until it shows others and new arrays are made.
+    #[test]
+    fn sets_that_nobody_shows_leave_with_the_next_arrays() {
+        let kind = |detail| Pattern::Kind(detail);
+        let set = |grey: f32| Pattern::Set(Arc::new(TextureSet::of_colors(vec![[grey, 0.5, 0.5]; SIDE * SIDE])));
+        let (a, b, c) = (set(0.1), set(0.2), set(0.3));
+        assert_eq!(a, set(0.1));
+        assert_ne!(a, b);
+        let body: [Arc<[Pattern]>; 2] = [[kind(Detail::Sand), a.clone()].into(), [b.clone()].into()];
+        let shown = body.each_ref().map(Arc::downgrade);
+        let first = grown(&[], &shown, &body[0], 9).unwrap();
+        assert_eq!(first, [kind(Detail::Sand), a.clone()]);
+        assert_eq!(grown(&first, &shown, &body[0], 9), None);
+        let second = grown(&first, &shown, &body[1], 9).unwrap();
+        assert_eq!(second, [kind(Detail::Sand), a.clone(), b.clone()]);
+        let [gone, other] = body;
+        drop(gone);
+        let wanted = [c.clone(), kind(Detail::Ice)];
+        let third = grown(&second, &shown, &wanted, 9).unwrap();
+        assert_eq!(third, [kind(Detail::Sand), kind(Detail::Ice), b.clone(), c.clone()]);
+        // Where there is no room, built-in patterns come first.
+        let fourth = grown(&second, &shown, &wanted, 3).unwrap();
+        assert_eq!(fourth, [kind(Detail::Sand), kind(Detail::Ice), b]);
+        assert_eq!(grown(&fourth, &shown, &wanted, 3), None);
+        drop(other);
+    }
 
     /// Every kind that has a pattern, with its layer.
     fn patterns() -> impl Iterator<Item = (Detail, &'static Layer)> {
@@ -364,14 +307,11 @@ mod tests {
     /// Stones stand higher than ripples, and nothing higher than it is wide.
     #[test]
     fn reliefs_are_those_of_the_heights() {
-        let ramp: Vec<f32> = (0..1000).map(|i| 0.3 * i as f32 / 1000.0).collect();
-        assert!((relief(&ramp, &ranks(&ramp)) - 0.3).abs() < 1e-3);
         for (kind, layer) in patterns() {
             assert!(layer.relief > 0.001 && layer.relief < 0.3, "{kind:?}: {}", layer.relief);
         }
-        let relief = |kind| layer(kind).relief;
-        assert!(relief(Detail::Cobbles) > 2.0 * relief(Detail::Beach), "{}", relief(Detail::Beach));
-        assert_eq!(relief_of(Detail::None), 0.0);
+        let [cobbles, beach] = [Detail::Cobbles, Detail::Beach].map(|kind| layer(kind).relief);
+        assert!(cobbles > 2.0 * beach, "cobbles {cobbles}, beach {beach}");
     }
 
     /// The tints of every pattern vary, and only lava glows.

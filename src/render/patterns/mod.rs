@@ -15,19 +15,34 @@ mod plants;
 mod stone;
 mod wet;
 
-pub(crate) use arrays::{PATTERN_ROUGHNESS, PATTERN_STEEPEST, PatternArrays, PatternPool, relief_of};
+pub(crate) use crate::planet::textures::layer::{PATTERN_ROUGHNESS, PATTERN_STEEPEST};
+pub(crate) use arrays::{Pattern, PatternArrays, PatternPool};
 pub(crate) use noise::SIDE;
 
+use crate::planet::textures::TextureSet;
 use crate::planet::{Biomes, Detail};
 use canvas::Spot;
+use std::sync::Arc;
 
-/// The kinds of pattern that a planet shows, each once.
-pub(crate) fn kinds_of(biomes: &Biomes) -> Vec<Detail> {
+/// The built-in kinds of pattern that a planet names, each once.
+fn kinds_of(biomes: &Biomes) -> Vec<Detail> {
     let shown = biomes.palette.iter().flat_map(|biome| [biome.detail, biome.patch_detail]).chain([biomes.cliff_detail]);
     Detail::ALL.iter().filter(|kind| **kind != Detail::None && shown.clone().any(|s| s == **kind)).copied().collect()
 }
 
-/// Draws the patterns of a planet on other threads.
+/// The patterns that a planet shows, each once: built-in ones, then the texture sets of its biomes. A biome with a set
+/// keeps the layer of its built-in pattern, for when there is no room for the set.
+pub(crate) fn patterns_of(biomes: &Biomes) -> Arc<[Pattern]> {
+    let mut sets: Vec<Arc<TextureSet>> = Vec::new();
+    for set in biomes.palette.iter().filter_map(|biome| biome.textures.set()) {
+        if !sets.contains(set) {
+            sets.push(set.clone());
+        }
+    }
+    kinds_of(biomes).into_iter().map(Pattern::Kind).chain(sets.into_iter().map(Pattern::Set)).collect()
+}
+
+/// Draws the built-in patterns of a planet on other threads. Texture sets are ready when they have been read.
 pub(crate) fn draw_ahead(biomes: &Biomes) {
     arrays::draw_ahead(&kinds_of(biomes));
 }

@@ -3,7 +3,7 @@
 //! texels of a row have in common.
 
 /// Texels along a side of a pattern.
-pub(crate) const SIDE: usize = 512;
+pub(crate) use crate::planet::textures::SIDE;
 
 /// A texel of a pattern.
 #[derive(Clone, Copy)]
