@@ -164,38 +164,52 @@ struct PatternRelief {
 
 // Levels of detail, by the mean side of the pixel, over which the relief ends.
 const RELIEF_LODS: vec2f = vec2f(1.2, 3.4);
+// Sines of rays over the ground over which it ends: on flatter ones steps are wide.
+const RELIEF_SINES: vec2f = vec2f(0.05, 0.3);
 // Lowest rays over the ground that are followed, as sines: lower ones are followed as these.
 const LOWEST_EYE: f32 = 0.16;
 const LOWEST_SUN: f32 = 0.09;
+// Greatest range of heights in periods: deeper patterns are drawn as deep.
+const DEEPEST: f32 = 0.1;
+// Halvings of the last level.
+const HALVINGS: u32 = 3u;
 // Width of the edge of shadows: rise over run.
 const SHADOW_EDGE: f32 = 0.3;
 
-// Height of a pattern at a place in periods, as a share of its range, -0.5 to 0.5.
-fn pattern_height(at: vec2f, layer: i32, level: f32) -> f32 {
-    return textureSampleLevel(material_tint, repeated, at, layer, level).a - 0.5;
+// Height of a pattern at a place in periods, as a share of its range, -0.5 to 0.5. Where patterns glow it is the rank.
+fn pattern_height(at: vec2f, layer: i32, level: f32, by_rank: bool) -> f32 {
+    if by_rank { return textureSampleLevel(material_tint, repeated, at, layer, level).a - 0.5; }
+    return textureSampleLevel(material_surface, repeated, at, layer, level).a - 0.5;
 }
 
 // `range_m`: from the lowest to the highest ground. `at`: place in periods on the plane. Rays go through heights level
-// by level from the top (Policarpo et al., Real-time relief mapping on arbitrary polygonal surfaces, 2005).
-fn pattern_relief(layer: i32, range_m: f32, period_m: f32, level: f32, axis: u32, at: vec2f, seen: Seen) -> PatternRelief {
+// by level from the top, and then by halves (Policarpo et al., Real-time relief mapping on arbitrary polygonal
+// surfaces, 2005).
+fn pattern_relief(
+    layer: i32, by_rank: bool, range_m: f32, period_m: f32, level: f32, axis: u32, at: vec2f, seen: Seen,
+) -> PatternRelief {
     let eye = normalize(-seen.rel_m);
     let eye_n = dot(eye, seen.n);
     // How far aside the ray to the eye, and that to the sun, go while they rise by the whole range.
     let to_eye_m = (eye - seen.n * eye_n) * (range_m / max(eye_n, LOWEST_EYE));
     let to_eye = projected(to_eye_m, axis) / period_m;
     let steps = select(6u, 12u, frame.pattern_quality > 1.0);
-    let lower = 1.0 / f32(steps);
+    var lower = 1.0 / f32(steps);
+    // What is narrower than a step would be met or missed by chance: it is taken for its mean.
+    let step_level = log2(max(length(to_eye) * lower * PATTERN_SIDE, 1e-3)) - 1.0;
+    var finer = 0.0;
     var z = 0.5;
-    var over = 0.5;
-    for (var i = 0u; i <= steps; i++) {
-        let ground = pattern_height(at + to_eye * z, layer, level);
-        if ground >= z {
-            // Between the last level over the ground and this one.
-            z += lower * (ground - z) / max(ground - z + over, 1e-4);
-            break;
+    for (var i = 0u; i < steps + HALVINGS; i++) {
+        let is_under = pattern_height(at + to_eye * z, layer, max(level, step_level - finer), by_rank) >= z;
+        if i < steps && !is_under {
+            z -= lower;
+            continue;
         }
-        over = z - ground;
-        z -= lower;
+        // Once under the ground, back and forth by halves.
+        if i < steps { i = steps; }
+        lower *= 0.5;
+        finer += 1.0;
+        z += select(-lower, lower, is_under);
     }
     z = clamp(z, -0.5, 0.5);
     var out = PatternRelief(to_eye_m * z, 1.0);
@@ -205,15 +219,18 @@ fn pattern_relief(layer: i32, range_m: f32, period_m: f32, level: f32, axis: u32
     let to_sun = projected(sun - seen.n * sun_n, axis) * (range_m / (max(sun_n, LOWEST_SUN) * period_m));
     let start = at + to_eye * z;
     // What was found on a steep side may lie within it.
-    let foot = max(z, pattern_height(start, layer, level));
-    let sun_steps = select(4u, 8u, frame.pattern_quality > 1.0);
+    let foot = max(z, pattern_height(start, layer, level, by_rank));
+    let sun_steps = select(5u, 10u, frame.pattern_quality > 1.0);
     let soft = SHADOW_EDGE * length(to_sun) * period_m / range_m;
+    let per_rise = length(to_sun) * (0.5 - foot) * PATTERN_SIDE;
     var hidden = 0.0;
     for (var i = 1u; i <= sun_steps; i++) {
         // Closer near the ground, where thin things stand.
         let share = f32(i) / f32(sun_steps);
         let rise = (0.5 - foot) * share * share;
-        let ground = pattern_height(start + to_sun * rise, layer, level);
+        let wide = per_rise * (2.0 * share - 1.0 / f32(sun_steps)) / f32(sun_steps);
+        let blurred = max(level, log2(max(wide, 1e-3)) - 1.0);
+        let ground = pattern_height(start + to_sun * rise, layer, blurred, by_rank);
         hidden = max(hidden, (ground - foot - rise) / (soft * rise + 0.04));
     }
     out.sun = 1.0 - saturate1(hidden);
@@ -263,14 +280,18 @@ fn pattern_of(id: i32, layer: i32, relief: f32, seen: Seen) -> Pattern {
     // By the mean of both sides of the pixel.
     let width_m = sqrt(max(length(seen.rel_x) * length(seen.rel_y), 1e-9));
     let near_lod = log2(width_m * PATTERN_SIDE / size.x);
-    let range_m = relief * size.x * size.y * (1.0 - smoothstep(RELIEF_LODS.x, RELIEF_LODS.y, near_lod));
+    let by_rank = relief < 0.0;
+    let eye_n = -dot(seen.rel_m, seen.n) / max(length(seen.rel_m), 1e-6);
+    let near = 1.0 - smoothstep(RELIEF_LODS.x, RELIEF_LODS.y, near_lod);
+    let clear = near * smoothstep(RELIEF_SINES.x, RELIEF_SINES.y, eye_n);
+    let range_m = min(abs(relief), DEEPEST) * size.x * size.y * clear;
     if !is_low && !flows && range_m > 0.0 {
         let axis = select(select(2u, 1u, planes.y > planes.z), 0u, planes.x > max(planes.y, planes.z));
         let shift = select(shifts.first, shifts.second, shifts.share > 0.5);
         let at = projected(body.eye_wrap_m + seen.rel_m, axis) / size.x + shift;
-        let found = pattern_relief(layer, range_m, size.x, max(near_lod - 0.5, 0.0), axis, at, seen);
+        let found = pattern_relief(layer, by_rank, range_m, size.x, max(near_lod - 0.5, 0.0), axis, at, seen);
         aside_m = found.aside_m;
-        out.sun = found.sun;
+        out.sun = mix(1.0, found.sun, clear);
     }
     var tint = vec3f(0.0);
     var slope = vec3f(0.0);
@@ -312,7 +333,7 @@ fn pattern_of(id: i32, layer: i32, relief: f32, seen: Seen) -> Pattern {
         let strength = weight * select(1.0, second, is_second);
         tint += strength * (2.0 * t.rgb - 1.0);
         slope += strength * unprojected(tilt, axis);
-        if !is_second { coarse += weight * vec3f(t.a, s.zw); }
+        if !is_second { coarse += weight * vec3f(t.a, s.z, select(0.0, s.w, relief <= 0.0)); }
     }
     out.tint = max(1.0 + tint * size.y, vec3f(0.0));
     out.slope = slope * (2.0 * PATTERN_STEEPEST * size.y);

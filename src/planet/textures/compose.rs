@@ -50,6 +50,7 @@ impl Maps {
         let layer = Layer::of_set(texels, slopes, height);
         let mut bytes: Vec<u8> = color.iter().flat_map(|part| part.to_le_bytes()).collect();
         layer.finest().iter().for_each(|texels| bytes.extend_from_slice(texels.as_flattened()));
+        bytes.extend(layer.relief.to_le_bytes());
         let hash = fnv1a(&bytes);
         TextureSet { color, layer, others, hash }
     }
@@ -145,7 +146,11 @@ mod tests {
             }
         }
         let [tint, surface] = set.layer.finest();
-        assert!(surface.iter().all(|texel| *texel == [128, 128, 128, 0]), "{:?}", surface[0]);
+        assert!(
+            set.layer.relief == 0.0 && surface.iter().all(|texel| *texel == [128, 128, 128, 0]),
+            "{:?}",
+            surface[0]
+        );
         // What is bright is high.
         assert!(tint[0][3] > 200 && tint[20][3] < 120, "{:?} {:?}", tint[0], tint[20]);
     }

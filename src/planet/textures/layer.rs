@@ -4,7 +4,8 @@
 //! - tint: half the factor on the biome's albedo (rgb) and the rank of the height among all heights, 0..1 (a). The
 //!   mean factor is 1, so that a biome keeps its colour far away, where only the coarsest level shows. The ranks make a
 //!   threshold leave a known share.
-//! - surface: slopes along both sides (rg), change of roughness (b), glow (a)
+//! - surface: slopes along both sides (rg), change of roughness (b); the height over the mean, as a share of the
+//!   relief, or the glow of a pattern that has any (a)
 
 /// Texels along a side of a layer.
 pub(crate) const SIDE: usize = 512;
@@ -36,7 +37,8 @@ pub(crate) struct Texel {
 pub(crate) struct Layer {
     pub(crate) tint: Vec<Texels>,
     pub(crate) surface: Vec<Texels>,
-    /// Range of heights in periods: that of ranks on the line which fits the heights best.
+    /// Range of heights in periods. Negative: the heights are the ranks, from the lowest to the highest, because the
+    /// surface has the glow in their place.
     pub(crate) relief: f32,
 }
 
@@ -60,20 +62,18 @@ impl Layer {
 
     fn new(texels: &[Texel], slopes: Vec<[f32; 2]>, height: f32) -> Self {
         let (ranks, slopes) = (ranks(texels), levelled(slopes));
-        let relief = height * relief(texels, &ranks);
+        let glows = texels.iter().any(|texel| texel.glow > 0.0);
+        let (heights, range) = over_the_mean(texels);
+        let relief = if glows { -height * fitted_range(texels, &ranks) } else { height * range };
         let tint = texels.iter().zip(ranks).map(|(texel, rank)| {
             let [r, g, b] = texel.tint;
             [0.5 * r, 0.5 * g, 0.5 * b, rank]
         });
         let tint = tint.collect();
-        let surface = texels.iter().zip(slopes).map(|(texel, [x, y])| {
+        let last = texels.iter().zip(&heights).map(|(texel, over)| if relief > 0.0 { *over } else { texel.glow });
+        let surface = texels.iter().zip(slopes).zip(last).map(|((texel, [x, y]), last)| {
             let signed = |w: f32, most: f32| 0.5 + 0.5 * (w / most).clamp(-1.0, 1.0);
-            [
-                signed(x, PATTERN_STEEPEST),
-                signed(y, PATTERN_STEEPEST),
-                signed(texel.roughness, PATTERN_ROUGHNESS),
-                texel.glow,
-            ]
+            [signed(x, PATTERN_STEEPEST), signed(y, PATTERN_STEEPEST), signed(texel.roughness, PATTERN_ROUGHNESS), last]
         });
         Self { tint: levels(tint), surface: levels(surface.collect()), relief }
     }
@@ -167,8 +167,21 @@ fn ranks(texels: &[Texel]) -> Vec<f32> {
     bins.into_iter().map(middle).collect()
 }
 
-/// Slope of the line through heights over ranks that fits best.
-fn relief(texels: &[Texel], ranks: &[f32]) -> f32 {
+/// Heights about their mean, which is 0.5, as shares of a range, and the range. Few texels are beyond its ends.
+fn over_the_mean(texels: &[Texel]) -> (Vec<f32>, f32) {
+    /// Share of the texels beyond each end.
+    const BEYOND: f32 = 0.04;
+    let count = texels.len().max(1);
+    let mean = (texels.iter().map(|texel| f64::from(texel.height)).sum::<f64>() / count as f64) as f32;
+    let mut away: Vec<f32> = texels.iter().map(|texel| (texel.height - mean).abs()).collect();
+    let at = ((1.0 - BEYOND) * (count - 1) as f32) as usize;
+    let most = if away.is_empty() { 0.0 } else { *away.select_nth_unstable_by(at, f32::total_cmp).1 };
+    let range = 2.0 * most;
+    (texels.iter().map(|texel| 0.5 + (texel.height - mean) / range.max(1e-9)).collect(), range)
+}
+
+/// Slope of the line through heights over ranks that fits best: the range of heights that ranks stand for.
+fn fitted_range(texels: &[Texel], ranks: &[f32]) -> f32 {
     let sums = texels.iter().zip(ranks).map(|(texel, rank)| {
         let off = f64::from(*rank) - 0.5;
         (f64::from(texel.height) * off, off * off)
