@@ -294,9 +294,10 @@ fn patterns_of(mixture: Mixture, share: f32, seen: Seen) -> array<Pattern, 2> {
         let patches = mixture.patches[biome];
         let shown = shown_layers(layers, patches, is_low);
         if !shown[i & 1] { continue; }
-        let relief = biome_param(mixture.ids[biome], 7)[i & 1];
-        let pattern = pattern_of(mixture.ids[biome], layers[i & 1], relief, seen);
-        if (i & 1) == 0 || !shown.x {
+        let is_patch = (i & 1) == 1;
+        let id = mixture.ids[biome];
+        let pattern = pattern_of(id, layers[i & 1], layer_shown(id, is_patch), seen);
+        if !is_patch || !shown.x {
             out[biome] = pattern;
             continue;
         }

@@ -1,6 +1,6 @@
 // Patterns of the ground: a tiling texture for each kind, projected along three axes (triplanar), at two scales,
 // shifted from part to part so that no period is seen, and advected downhill where the material flows. Layout of the
-// texels: src/render/patterns/arrays.rs and src/render/biome_table.rs.
+// texels: src/planet/textures/layer.rs and src/render/biome_table.rs.
 #include "uniforms.wgsl"
 #include "luts.wgsl"
 #include "macro_variation.wgsl"
@@ -197,18 +197,14 @@ fn pattern_relief(
     var lower = 1.0 / f32(steps);
     // What is narrower than a step would be met or missed by chance: it is taken for its mean.
     let step_level = log2(max(length(to_eye) * lower * PATTERN_SIDE, 1e-3)) - 1.0;
-    var finer = 0.0;
     var z = 0.5;
-    for (var i = 0u; i < steps + HALVINGS; i++) {
-        let is_under = pattern_height(at + to_eye * z, layer, max(level, step_level - finer), by_rank) >= z;
-        if i < steps && !is_under {
-            z -= lower;
-            continue;
-        }
-        // Once under the ground, back and forth by halves.
-        if i < steps { i = steps; }
+    for (var i = 0u; i < steps; i++) {
+        if pattern_height(at + to_eye * z, layer, max(level, step_level), by_rank) >= z { break; }
+        z -= lower;
+    }
+    for (var i = 0u; i < HALVINGS; i++) {
+        let is_under = pattern_height(at + to_eye * z, layer, max(level, step_level - f32(i)), by_rank) >= z;
         lower *= 0.5;
-        finer += 1.0;
         z += select(-lower, lower, is_under);
     }
     z = clamp(z, -0.5, 0.5);
@@ -237,9 +233,33 @@ fn pattern_relief(
     return out;
 }
 
+// How a biome shows a layer (row 7 of its parameters): the range of heights in periods, negative where they are ranks
+// (x); the period of the finer scale in metres, 0 without one (y).
+fn layer_shown(id: i32, is_patch: bool) -> vec2f {
+    let row = textureLoad(biome_params, vec2i(id, 7), 0);
+    return select(row.xz, row.yw, is_patch);
+}
+
+// Relief of a layer, which ends where pixels get wide and rays flat. `size`: row 3 of the biome's parameters.
+fn relief_near(layer: i32, relief: f32, size: vec4f, planes: vec3f, shifts: Shifts, seen: Seen) -> PatternRelief {
+    // By the mean of both sides of the pixel.
+    let width_m = sqrt(max(length(seen.rel_x) * length(seen.rel_y), 1e-9));
+    let lod = log2(width_m * PATTERN_SIDE / size.x);
+    let eye_n = -dot(seen.rel_m, seen.n) / max(length(seen.rel_m), 1e-6);
+    let clear = (1.0 - smoothstep(RELIEF_LODS.x, RELIEF_LODS.y, lod))
+        * smoothstep(RELIEF_SINES.x, RELIEF_SINES.y, eye_n);
+    let range_m = min(abs(relief), DEEPEST) * size.x * size.y * clear;
+    if range_m <= 0.0 { return PatternRelief(vec3f(0.0), 1.0); }
+    let axis = select(select(2u, 1u, planes.y > planes.z), 0u, planes.x > max(planes.y, planes.z));
+    let at = projected(body.eye_wrap_m + seen.rel_m, axis) / size.x
+        + select(shifts.first, shifts.second, shifts.share > 0.5);
+    let found = pattern_relief(layer, relief < 0.0, range_m, size.x, max(lod - 0.5, 0.0), axis, at, seen);
+    return PatternRelief(found.aside_m, mix(1.0, found.sun, clear));
+}
+
 // A layer as a biome shows it. All taps share one loop, because a software driver takes minutes to compile the unrolled
 // taps.
-fn pattern_of(id: i32, layer: i32, relief: f32, seen: Seen) -> Pattern {
+fn pattern_of(id: i32, layer: i32, shown: vec2f, seen: Seen) -> Pattern {
     var out = no_pattern();
     let size = textureLoad(biome_params, vec2i(id, 3), 0);
     let glow = textureLoad(biome_params, vec2i(id, 4), 0);
@@ -262,11 +282,12 @@ fn pattern_of(id: i32, layer: i32, relief: f32, seen: Seen) -> Pattern {
     let second = 0.5 * select(
         1.0 - smoothstep(FINE_PERIODS.x, FINE_PERIODS.y, away), smoothstep(FINE_PERIODS.y, BROAD_PERIODS, away), is_broad,
     );
-    let second_m = select(glow.w, WRAP_M / max(round(WRAP_M / (BROAD * size.x)), 1.0), is_broad);
-    let scales = select(1u, 2u, frame.pattern_quality > 0.0 && lod < select(7.0, 8.5, is_broad) && second > 0.0);
+    let second_m = select(shown.y, WRAP_M / max(round(WRAP_M / (BROAD * size.x)), 1.0), is_broad);
+    let scales = select(1u, 2u, frame.pattern_quality > 0.0 && lod < select(7.0, 8.5, is_broad)
+        && second > 0.0 && second_m > 0.0);
     let is_low = frame.pattern_quality == 0.0;
     let most_steps = select(2u << u32(frame.pattern_quality), select(1u, 2u, lod < LOW_TAPS_LOD), is_low);
-    let steps = taps_along(seen, select(size.x, glow.w, scales == 2u && !is_broad) / PATTERN_SIDE, most_steps);
+    let steps = taps_along(seen, select(size.x, shown.y, scales == 2u && !is_broad) / PATTERN_SIDE, most_steps);
     let tap_width = select(1.0, select(TAP_WIDTH, LOW_TAP_WIDTH, is_low), steps > 1u || is_low) / f32(steps);
     let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);
     let copies = axes * scales * steps;
@@ -275,24 +296,9 @@ fn pattern_of(id: i32, layer: i32, relief: f32, seen: Seen) -> Pattern {
     if !is_low && !flows { shifts = shifts_at(seen, size.x); }
     // Two patterns in their mean have less contrast than one: the deviation from the mean is as much greater.
     let contrast = inverseSqrt(1.0 - 2.0 * shifts.share * (1.0 - shifts.share));
-    var aside_m = vec3f(0.0);
-    out.sun = 1.0;
-    // By the mean of both sides of the pixel.
-    let width_m = sqrt(max(length(seen.rel_x) * length(seen.rel_y), 1e-9));
-    let near_lod = log2(width_m * PATTERN_SIDE / size.x);
-    let by_rank = relief < 0.0;
-    let eye_n = -dot(seen.rel_m, seen.n) / max(length(seen.rel_m), 1e-6);
-    let near = 1.0 - smoothstep(RELIEF_LODS.x, RELIEF_LODS.y, near_lod);
-    let clear = near * smoothstep(RELIEF_SINES.x, RELIEF_SINES.y, eye_n);
-    let range_m = min(abs(relief), DEEPEST) * size.x * size.y * clear;
-    if !is_low && !flows && range_m > 0.0 {
-        let axis = select(select(2u, 1u, planes.y > planes.z), 0u, planes.x > max(planes.y, planes.z));
-        let shift = select(shifts.first, shifts.second, shifts.share > 0.5);
-        let at = projected(body.eye_wrap_m + seen.rel_m, axis) / size.x + shift;
-        let found = pattern_relief(layer, by_rank, range_m, size.x, max(near_lod - 0.5, 0.0), axis, at, seen);
-        aside_m = found.aside_m;
-        out.sun = mix(1.0, found.sun, clear);
-    }
+    var relief = PatternRelief(vec3f(0.0), 1.0);
+    if !is_low && !flows { relief = relief_near(layer, shown.x, size, planes, shifts, seen); }
+    out.sun = relief.sun;
     var tint = vec3f(0.0);
     var slope = vec3f(0.0);
     var coarse = vec3f(0.0);
@@ -311,7 +317,7 @@ fn pattern_of(id: i32, layer: i32, relief: f32, seen: Seen) -> Pattern {
         let is_x_longer = dot(x, x) > dot(y, y);
         let long_m = select(y, x, is_x_longer);
         let wide_m = max(length(select(x, y, is_x_longer)), length(long_m) * tap_width);
-        var p = projected(body.eye_wrap_m + seen.rel_m + aside_m - carried_m, axis);
+        var p = projected(body.eye_wrap_m + seen.rel_m + relief.aside_m - carried_m, axis);
         p += long_m * tap_place(step, steps);
         var period_m = size.x;
         if is_second {
@@ -333,7 +339,8 @@ fn pattern_of(id: i32, layer: i32, relief: f32, seen: Seen) -> Pattern {
         let strength = weight * select(1.0, second, is_second);
         tint += strength * (2.0 * t.rgb - 1.0);
         slope += strength * unprojected(tilt, axis);
-        if !is_second { coarse += weight * vec3f(t.a, s.z, select(0.0, s.w, relief <= 0.0)); }
+        // Where heights are told their place is that of the glow.
+        if !is_second { coarse += weight * vec3f(t.a, s.z, select(0.0, s.w, shown.x <= 0.0)); }
     }
     out.tint = max(1.0 + tint * size.y, vec3f(0.0));
     out.slope = slope * (2.0 * PATTERN_STEEPEST * size.y);

@@ -412,7 +412,9 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     ground.albedo *= splashed(over_sea_m, pixel_ground.spread_m, variation);
     if GIANT {
         let deck = giant_tops(up, footprint_m * 0.001 / body.radius_km);
-        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0), vec2<i32>(-1), vec2f(0.0), vec3f(1.0), 1.0, 1.0);
+        ground = Material(
+            deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0), vec2<i32>(-1), vec2f(0.0), vec3f(1.0), 1.0, 1.0,
+        );
     }
     let wet = pixel_ground.water.x;
     canopy_normal = n;

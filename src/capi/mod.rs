@@ -15,6 +15,7 @@ mod tests;
 mod tests_objects;
 
 use crate::clouds::CloudField;
+use crate::planet::param::ParamPath;
 use crate::planet::{Key, Planet};
 use crate::sphere::{Face, LatLon, NodeId};
 use crate::terrain::{Detail, MapStore, Scratch, Terrain, Wanted};
@@ -116,15 +117,11 @@ pub unsafe extern "C" fn tellus_planet_from_text(
         // SAFETY: the caller's promise.
         let folder = unsafe { optional_text(cache_folder, "cache_folder") }?;
         let mut planet = Planet::from_text(name, preset).map_err(|error| error.to_string())?;
-        for (path, why) in planet.load_pictures() {
-            let why = format!("{name}: {path}: {why}");
-            // A biome whose textures cannot be read shows its pattern.
-            if planet.texture_sets().all(|(textures, _)| textures != path) {
-                return Err(why);
-            }
-            log::warn!("{why}");
-        }
-        ready(planet, folder)
+        let problems = planet.load_pictures();
+        let [textures, others] = planet.harmless_problems(problems);
+        let said = |(path, why): (ParamPath, String)| format!("{name}: {path}: {why}");
+        textures.into_iter().for_each(|problem| log::warn!("{}", said(problem)));
+        others.into_iter().next().map_or_else(|| ready(planet, folder), |problem| Err(said(problem)))
     })
 }
 

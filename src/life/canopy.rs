@@ -27,7 +27,7 @@ const LITTER_OF: [f64; 3] = [0.52, 0.41, 0.28];
 /// Share of sunlight that leaves let through, over their albedo: leaves are about as bright from behind.
 const LET_THROUGH: f64 = 0.72;
 
-/// The same of needles on boughs, which lie over one another.
+/// Share of sunlight that needles let through, over their albedo: boughs lie over one another.
 const NEEDLES_LET_THROUGH: f64 = 0.2;
 
 /// Light that the leaves of a population let through to what stands below, as shares of the sun's; none of stones.

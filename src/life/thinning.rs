@@ -96,9 +96,10 @@ fn limits(quality: Quality) -> (f64, f64) {
 
 /// Distance up to which objects of a population are drawn, apart from others.
 fn own_reach_m(placement: &Placement, quality: Quality) -> f64 {
-    let (heights, most) = limits(quality);
+    let (sizes, most) = limits(quality);
+    let population = placement.population();
     let by_count_m = (most / (placement.most_per_m2() * std::f64::consts::PI)).sqrt();
-    (placement.population().height_m * placement.population().form.seen_size() * heights).min(by_count_m)
+    (population.height_m * population.form.seen_size() * sizes).min(by_count_m)
 }
 
 /// How objects of each population thin out among all: none are drawn beyond those of a denser population of like size

@@ -117,7 +117,8 @@ params! {
         /// Colour picture of a texture set, which is shown in place of the close-up pattern. Pictures of normals,
         /// roughness, height and occlusion are found beside it by their names.
         #[serde(skip_serializing_if = "TextureSetFile::is_none")]
-        textures: TextureSetFile = TextureSetFile::default(), "Textures", Unit::None, Domain::File { max_chars: 256 }, Stage::Material;
+        textures: TextureSetFile = TextureSetFile::default(), "Textures", Unit::None,
+            Domain::File { max_chars: 256 }, Stage::Material;
         /// Period of the pattern.
         detail_m: f64 = 2.0, "Detail size", Unit::Metres, DETAIL_SIZE, Stage::Material;
         /// Strength of the pattern: 0 is an even surface.

@@ -129,8 +129,7 @@ impl Planet {
         beside::checked(file, text, &planet, edits.as_ref())?;
         let problems = complete(&mut planet);
         // Without its textures a biome still has a pattern, and all heights are right.
-        let sets: Vec<ParamPath> = planet.texture_sets().map(|(path, _)| path).collect();
-        let (textures, problems): (Vec<_>, Vec<_>) = problems.into_iter().partition(|(path, _)| sets.contains(path));
+        let [textures, problems] = planet.harmless_problems(problems);
         if !textures.is_empty() {
             log::warn!("{}", beside::placed(file, text, edits.as_ref(), textures));
         }

@@ -12,13 +12,27 @@ use std::sync::Arc;
 /// The content of a file that a preset refers to.
 pub trait Linked: PartialEq + fmt::Debug {
     /// The source of the content: the file, and what else decides how it is read.
-    type Key: Clone + PartialEq + fmt::Debug;
+    type Key: LinkedKey;
+}
 
-    /// The file of a source.
-    fn file(key: &Self::Key) -> &Path;
+/// The source of a linked file's content.
+pub trait LinkedKey: Clone + PartialEq + fmt::Debug {
+    /// The file.
+    fn file(&self) -> &Path;
 
-    /// Source in a file of another name.
-    fn renamed(key: Self::Key, file: PathBuf) -> Self::Key;
+    /// The same source in a file of another name.
+    fn renamed(self, file: PathBuf) -> Self;
+}
+
+/// The source of content that depends on the file alone.
+impl LinkedKey for PathBuf {
+    fn file(&self) -> &Path {
+        self
+    }
+
+    fn renamed(self, file: PathBuf) -> Self {
+        file
+    }
 }
 
 /// A reference to a file. A preset holds only the path.
@@ -72,7 +86,7 @@ impl<L: Linked> PartialEq for LinkedFile<L> {
         };
         let content = |file: &Self| {
             let (key, content) = file.current()?;
-            Some((L::renamed(key.clone(), place::tidy(L::file(key))), content.clone()))
+            Some((key.clone().renamed(place::tidy(key.file())), content.clone()))
         };
         same_place && content(self) == content(other)
     }
@@ -111,7 +125,7 @@ impl<L: Linked> LinkedFile<L> {
 
     /// The loaded content and its source, unless the path has changed since.
     pub(super) fn current(&self) -> Option<&(L::Key, Arc<L>)> {
-        self.loaded.as_ref().filter(|(key, _)| self.location().as_deref() == Some(L::file(key)))
+        self.loaded.as_ref().filter(|(key, _)| self.location().as_deref() == Some(key.file()))
     }
 
     /// Whether its relative paths are relative to something.
@@ -137,7 +151,7 @@ impl<L: Linked> LinkedFile<L> {
     {
         let place = self.location();
         let loaded = others.filter_map(Self::current);
-        if let Some(loaded) = loaded.filter(|(key, _)| Some(L::file(key)) == place.as_deref()).last() {
+        if let Some(loaded) = loaded.filter(|(key, _)| Some(key.file()) == place.as_deref()).last() {
             self.loaded = Some(loaded.clone());
         }
     }
@@ -152,7 +166,7 @@ impl<L: Linked> LinkedFile<L> {
         let loaded = self.current().cloned();
         *self = moved;
         if let (Some((key, content)), Some(file)) = (loaded, self.location()) {
-            self.loaded = Some((L::renamed(key, file), content));
+            self.loaded = Some((key.renamed(file), content));
         }
     }
 }

@@ -258,6 +258,13 @@ impl Planet {
         self.load_pictures_with(FileKey::load)
     }
 
+    /// The problems of [`Planet::load_pictures`] that leave the ground as it is, those of texture sets, and the others.
+    pub(crate) fn harmless_problems(&self, problems: Vec<(ParamPath, String)>) -> [Vec<(ParamPath, String)>; 2] {
+        let sets: Vec<ParamPath> = self.texture_sets().map(|(path, _)| path).collect();
+        let (harmless, others) = problems.into_iter().partition(|(path, _)| sets.contains(path));
+        [harmless, others]
+    }
+
     /// As [`Planet::load_pictures`], from the bytes of files that `fetch` gives for paths as they are written in the
     /// preset, for those of buffers and pictures that a mesh names, and for names that the other pictures of a texture
     /// set may have: what it has none for, the set lacks. Files on the disk are not touched. See [`Planet::from_pack`].

@@ -30,9 +30,6 @@ pub(crate) const WRAP_M: f64 = 1024.0;
 /// triangle. Its period divides [`WRAP_M`] / [`TURN`], so that the rotated pattern repeats after [`WRAP_M`], too.
 const FINE: f64 = 0.31;
 const TURN: f64 = 5.0;
-/// Period in metres of the finer scale of a texture set, so fine that even at one's feet only its mean is seen: stones
-/// of an artist have a size, and no smaller ones lie within them.
-const NO_FINE_M: f64 = 1e-5;
 
 /// Cells of the biome table whose ground is highlighted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -129,16 +126,19 @@ fn numbers(biome: &Biome, biomes: &Biomes, patterns: &[Pattern]) -> [[f64; 4]; R
     let whole = |length: f64, parts: f64, size: f64| length / parts / (length / parts / size).round().max(1.0);
     let size_m = whole(WRAP_M, 1.0, biome.detail_m);
     let patch_m = material::patch_tile_m(biome);
-    // Texture layer and relief of a pattern.
-    let shown = |wanted: Pattern| {
-        let layer = patterns.iter().position(|known| *known == wanted);
-        layer.map(|layer| [layer as f64, patterns[layer].relief()])
+    let layer_of = |wanted: &Pattern| patterns.iter().position(|known| known == wanted);
+    // Texture layer, relief and period of the finer scale in metres. Stones of an artist have a size: no finer ones
+    // lie within them.
+    let shown = |wanted: &Pattern| match layer_of(wanted) {
+        Some(layer) => {
+            let fine_m = if matches!(wanted, Pattern::Set(_)) { 0.0 } else { whole(WRAP_M, TURN, FINE * size_m) };
+            [layer as f64, wanted.relief(), fine_m]
+        }
+        None => [-1.0, 0.0, 0.0],
     };
-    let of_kind = |kind: Detail| shown(Pattern::Kind(kind)).unwrap_or([-1.0, 0.0]);
-    let own = biome.textures.set().and_then(|set| shown(Pattern::Set(set.clone())));
-    let fine_m = if own.is_some() { NO_FINE_M } else { whole(WRAP_M, TURN, FINE * size_m) };
-    let own = own.unwrap_or_else(|| of_kind(biome.detail));
-    let of_patches = if biome.patch_detail == Detail::None { own } else { of_kind(biome.patch_detail) };
+    let set = biome.textures.set().map(|set| Pattern::Set(set.clone())).filter(|set| layer_of(set).is_some());
+    let own = shown(&set.unwrap_or(Pattern::Kind(biome.detail)));
+    let patch = if biome.patch_detail == Detail::None { own } else { shown(&Pattern::Kind(biome.patch_detail)) };
     let cosine = |degrees: f64| degrees.to_radians().cos();
     let [into, from, to] = biomes.steep_rule(biome).map_or([-1.0, 0.0, 0.0], |rule| {
         [rule.into.map_or(ROCK, |index| index) as f64, cosine(rule.from_deg), cosine(rule.to_deg)]
@@ -149,10 +149,10 @@ fn numbers(biome: &Biome, biomes: &Biomes, patterns: &[Pattern]) -> [[f64; 4]; R
         four(biome.patch_color, biome.patches),
         [biome.roughness, biome.specular, patch_m, patterns::bumps(biome.detail)],
         [size_m, biome.detail_strength, biome.flow_m_s, biome.glow],
-        four(biome.glow_color, fine_m),
+        four(biome.glow_color, 0.0),
         [into, from, to, 0.0],
-        [own[0], of_patches[0], 0.0, 0.0],
-        [own[1], of_patches[1], 0.0, 0.0],
+        [own[0], patch[0], 0.0, 0.0],
+        [own[1], patch[1], own[2], patch[2]],
     ]
 }
 

@@ -8,11 +8,16 @@ use super::tube::{self, Knot};
 use crate::planet::life::Conifer;
 use glam::Vec3;
 
-/// Widening of the trunk at the ground, as a share of its radius: its mean, and how far roots stand out. Height over
-/// which it ends.
+/// Widening of the trunk at the ground, as a share of its radius: its mean, and how far roots stand out.
 const ROOTS: f32 = 0.75;
 const ROOTS_SPREAD: f32 = 0.32;
-const ROOTS_HIGH: f32 = 0.017;
+
+/// Share of that widening which is left at a height.
+fn rooted(z: f32) -> f32 {
+    const BELOW: f32 = 0.01;
+    const HIGH: f32 = 0.017;
+    exp(-(z + BELOW).max(0.0) / HIGH)
+}
 
 /// Branch of a whorl or between two.
 #[derive(Clone, Copy, Debug)]
@@ -146,22 +151,20 @@ fn trunk(mesh: &mut Mesh, form: &Conifer, detail: &Detail) {
     let knots: Vec<Knot> = shares
         .iter()
         .map(|&z| {
-            let flare = 1.0 + ROOTS * exp(-(z + 0.01).max(0.0) / ROOTS_HIGH);
+            let flare = 1.0 + ROOTS * rooted(z);
             let light = mix(0.6, 0.25, smooth(form.trunk as f32, form.trunk as f32 + 0.2, z));
             let look = Look { part: 0.0, light, sway: 0.5 * pow(z.max(0.0), 1.6) };
             Knot { at: Vec3::Z * z, radius: wide * pow(1.0 - 0.97 * z.max(0.0), 1.2) * flare, look }
         })
         .collect();
-    if detail.level > 0 {
-        return tube::tube(mesh, &knots, detail.pick([3, 5, 3, 3]));
-    }
+    let (sides, spread) = detail.pick([(16, ROOTS_SPREAD), (5, 0.0), (3, 0.0), (3, 0.0)]);
     // Roots run out to some sides.
     let turn = Random::new(detail.seed, 2).range(0.0, TURN);
     let lobes = move |angle: f32| 0.6 * cos(3.0 * angle + turn) + 0.4 * cos(5.0 * angle - 2.0 * turn);
-    let last = shares.len() as f32 - 1.0;
-    tube::fluted(mesh, &knots, 16, |angle, share| {
-        let z = shares[((share * last).round() as usize).min(shares.len() - 1)];
-        1.0 + ROOTS_SPREAD * lobes(angle) * exp(-(z + 0.01).max(0.0) / ROOTS_HIGH)
+    let last = shares.len() - 1;
+    tube::fluted(mesh, &knots, sides, |angle, share| {
+        let z = shares[((share * last as f32).round() as usize).min(last)];
+        1.0 + spread * lobes(angle) * rooted(z)
     });
 }
 

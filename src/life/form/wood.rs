@@ -70,12 +70,13 @@ fn sticks(form: &Wood, seed: u32) -> Vec<Stick> {
         });
     }
     let each = (branches * 6.0).round() as u32;
-    let grown: Vec<Stick> = trunks
-        .iter()
-        .flat_map(|trunk| (0..each).map(|k| branch(trunk, k, branches, &mut random)).collect::<Vec<_>>())
-        .collect();
-    trunks.extend(grown);
-    trunks
+    let mut all = trunks;
+    for trunk in 0..all.len() {
+        for k in 0..each {
+            all.push(branch(&all[trunk], k, branches, &mut random));
+        }
+    }
+    all
 }
 
 /// Branch of a trunk, to one side and the other in turn.
@@ -102,7 +103,7 @@ const COARSEST: Grid = (2, 3);
 pub(super) fn build(form: &Wood, detail: &Detail) -> Mesh {
     let mut mesh = Mesh::default();
     let all = sticks(form, detail.seed);
-    let (trunks, branches) = all.split_at(form.pieces.min(all.len() as u32) as usize);
+    let (trunks, branches) = all.split_at(form.pieces as usize);
     let plan = plan(detail, trunks.len(), branches.len());
     let chosen = trunks[..plan.trunks].iter().map(|stick| (stick, plan.trunk));
     let chosen = chosen.chain(branches[..plan.branches].iter().map(|stick| (stick, plan.branch)));
@@ -182,8 +183,8 @@ fn draw(mesh: &mut Mesh, form: &Wood, detail: &Detail, piece: &Piece) {
             let (aside, up) = (cos(angle), sin(angle));
             let knobs = 1.0 + 0.1 * noise(middle * 2.5 + Vec3::new(aside, up, 0.0) * 1.3, seed);
             let radius = stick.radius(s) * knobs * round;
-            let splinter = (hash(seed ^ (7 * i + ring) as u32) >> 8) as f32 / 16_777_216.0 - 0.5;
-            let torn = if is_end && stick.is_trunk { 0.7 * radius * splinter } else { 0.0 };
+            let splinter = Random::new(seed, (ring * sides + i) as u32).signed();
+            let torn = if is_end && stick.is_trunk { 0.35 * radius * splinter } else { 0.0 };
             let at = placed(middle) + across * (aside * radius * spread * detail.flat) + upward * (up * radius);
             (at + stick.along * torn, across * aside + upward * up)
         };
@@ -205,11 +206,11 @@ fn draw(mesh: &mut Mesh, form: &Wood, detail: &Detail, piece: &Piece) {
         }
         previous = row;
     }
-    for (end, way) in ends.iter().zip([-stick.along, stick.along]) {
+    for (end, (way, is_tip)) in ends.iter().zip([(-stick.along, false), (stick.along, true)]) {
         let face: Vec<u16> =
             end.iter().map(|&at| mesh.vertex(at, way, Look { part: 0.0, light: 0.75, sway: 0.0 })).collect();
         for i in 1..sides - 1 {
-            let (b, c) = if way.dot(stick.along) > 0.0 { (face[i], face[i + 1]) } else { (face[i + 1], face[i]) };
+            let (b, c) = if is_tip { (face[i], face[i + 1]) } else { (face[i + 1], face[i]) };
             mesh.triangle(face[0], b, c);
         }
     }

@@ -3,7 +3,7 @@
 use crate::planet::linked::{Linked, LinkedFile};
 use glam::{Vec2, Vec3};
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Most triangles of the mesh of one file.
@@ -89,14 +89,6 @@ impl PartialEq for MeshData {
 
 impl Linked for MeshData {
     type Key = PathBuf;
-
-    fn file(key: &PathBuf) -> &Path {
-        key
-    }
-
-    fn renamed(_: PathBuf, file: PathBuf) -> PathBuf {
-        file
-    }
 }
 
 impl LinkedFile<MeshData> {
@@ -111,7 +103,7 @@ impl LinkedFile<MeshData> {
     /// A reference to a mesh that is in no file.
     pub(crate) fn holding(nodes: Vec<MeshNode>) -> Self {
         let mut file = Self::from("mesh.glb".to_owned());
-        file.set_folder(Path::new(""));
+        file.set_folder("".as_ref());
         file.give(&PathBuf::from("mesh.glb"), &Arc::new(MeshData::new(nodes, Vec::new(), 0)));
         file
     }

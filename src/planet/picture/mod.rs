@@ -26,7 +26,7 @@ pub(super) use from_exr::{Wanted, each_run as exr_runs};
 pub(super) use from_png::each_run as png_runs;
 pub use pixels::{Picture, PictureExtent, PictureLayout};
 
-use super::linked::{Linked, LinkedFile};
+use super::linked::{Linked, LinkedFile, LinkedKey};
 use super::open::followed;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -66,13 +66,15 @@ pub type PictureFile = LinkedFile<Picture>;
 
 impl Linked for Picture {
     type Key = PictureKey;
+}
 
-    fn file(key: &PictureKey) -> &Path {
-        &key.file
+impl LinkedKey for PictureKey {
+    fn file(&self) -> &Path {
+        &self.file
     }
 
-    fn renamed(key: PictureKey, file: PathBuf) -> PictureKey {
-        PictureKey { file, ..key }
+    fn renamed(self, file: PathBuf) -> Self {
+        Self { file, ..self }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::layer::Layer;
 use crate::planet::linked::{Linked, LinkedFile};
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Reference to a texture set: the path of its colour picture.
@@ -58,14 +58,6 @@ impl PartialEq for TextureSet {
 
 impl Linked for TextureSet {
     type Key = PathBuf;
-
-    fn file(key: &PathBuf) -> &Path {
-        key
-    }
-
-    fn renamed(_: PathBuf, file: PathBuf) -> PathBuf {
-        file
-    }
 }
 
 impl LinkedFile<TextureSet> {
@@ -88,7 +80,7 @@ impl LinkedFile<TextureSet> {
     /// A reference to a set that is in no file.
     pub(crate) fn holding(set: TextureSet) -> Self {
         let mut file = Self::from("rock_albedo.png".to_owned());
-        file.set_folder(Path::new(""));
+        file.set_folder("".as_ref());
         file.give(&PathBuf::from("rock_albedo.png"), &Arc::new(set));
         file
     }
